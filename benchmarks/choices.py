@@ -4,8 +4,7 @@
 
     benchmarks/choices.py [GROUP...] [--seconds 3] [--seed N] [--set ENTRY=VALUE] [--voussoir PROGRAM]
 
-Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), estimate,
-estimate28 (Dynamics/Error estimate), elements, solvers, boundary, free_field, box (its sizes), box_tied (without joints), box_static, box28 (28 joints),
+Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), elements, solvers, boundary, free_field, box (its sizes), box_tied (without joints), box_static, box28 (28 joints),
 rock_cells, rock28_cells, rock_layers, rock_steps. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from
 the bottom is all at the dam before the end, whatever the depth.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
@@ -72,7 +71,6 @@ def groups():
               ("all 315 m", box(315)), ("all 420 m", box(420)))]
     deep = {**box(630), "Foundation/Boundary": "mtf4"}
     far, nested_far = "mtf4 in a box of 630 m", "a box of 630 m, the same elements at the dam"
-    told = [("with its estimate", f"{10 / n:g} ms", {STEPS: n, "Dynamics/Error estimate": "true"}) for n in (1, 2, 4)]
     whole = [(f"{name(m)}, {10 / n:g} ms", {**mesh(*m), STEPS: n}) for m, n in
              (((60, 16, 2), 1), ((60, 16, 2), 2), ((60, 20, 3), 2), ((72, 24, 3), 2), ((60, 24, 4), 2))]
     whole28 = [(f"{name(m)}, {10 / n:.3g} ms", {**mesh(*m), STEPS: n}) for m, n in
@@ -87,8 +85,6 @@ def groups():
         "steps": (RIGID, {}, steps_of(("mean-force", "impulse-consistent", "paper", "none"), (1, 2, 4)), {STEPS: 8},
                   "mean-force at 1.25 ms, on the same mesh"),
         "steps28": (MANY, many, steps_of(("mean-force",), (1, 2, 4)), {STEPS: 8}, "1.25 ms, on the same mesh (58 x 21 x 2)"),
-        "estimate": (RIGID, {}, steps_of(("mean-force",), (1, 2, 4)) + told, {STEPS: 8}, "1.25 ms, on the same mesh"),
-        "estimate28": (MANY, many, told, {STEPS: 8}, "1.25 ms, on the same mesh (58 x 21 x 2)"),
         "elements": (RIGID, {STEPS: 2},
                      [("degree 1, modes", name(m), mesh(*m)) for m in linear]
                      + [("degree 1, plain", name(m), {**mesh(*m), modes: "false"}) for m in linear]
@@ -169,15 +165,14 @@ def study(name, options):
         results = []
         for curve, label, settings in rows:
             openings, tensions, summary = runs.measure(settings)
-            told = summary.get("error_estimate", {}).get("openings")
             results.append((curve, str(label), summary["seconds"]["shaking_cpu"] / runs.duration,
                             error(openings, reference[0]), error(tensions, reference[1]),
-                            "" if told is None else f"{100 * told:.2g} %", summary["newton_iterations"]["mean"],
+                            summary["newton_iterations"]["mean"],
                             summary["energy_balance_error"]))
-    print(f"\n### {name}: against {what}\n\n| choice | | s per s | openings | by estimate | tension | Newton steps | energy account |\n|"
-          + "---|" * 8)
-    for curve, label, cost, o, t, told, newton, balance in results:
-        print(f"| {curve} | {label} | {cost:.2f} | {100 * o:.2g} % | {told} | {100 * t:.2g} % | {newton:.2f} | {balance:.0e} |")
+    print(f"\n### {name}: against {what}\n\n| choice | | s per s | openings | tension | Newton steps | energy account |\n|"
+          + "---|" * 7)
+    for curve, label, cost, o, t, newton, balance in results:
+        print(f"| {curve} | {label} | {cost:.2f} | {100 * o:.2g} % | {100 * t:.2g} % | {newton:.2f} | {balance:.0e} |")
     if name in CHARTS:
         draw(name, what, results)
 

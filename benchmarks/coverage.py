@@ -23,15 +23,25 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
+from scipy import signal
 
 from program import ROOT, add_program_argument, run
-from held_back import HEAD, noise
 from voussoir.error_bars import HEADLINES, headlines
 from voussoir.results import Results
 
 FINER = 3  # times as many elements each way has the truth
 STEPS = 4  # times as many time steps
 SECONDS = 2.5  # of motion
+HEAD = "elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"
+
+
+def noise(n, dt, seed, lowest, highest, peak_time):
+    """Noise between two frequencies [Hz], swelling to its peak and decaying; largest value 1."""
+    white = np.random.default_rng(seed).standard_normal(n)
+    band = signal.butter(3, [lowest, min(highest, .45 / dt)], "band", fs=1 / dt, output="sos")
+    t = np.arange(n) * dt / peak_time
+    a = signal.sosfilt(band, white) * t**2 * np.exp(2 * (1 - t))
+    return a / np.abs(a).max()
 
 
 def table_of(draw):

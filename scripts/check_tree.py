@@ -13,8 +13,8 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-BUDGETS = {"lines of C++ in source and include": 58900, "words of pages written by hand": 58925,
-           "sources that include grids of deal.II": 30, "headers that include grids of deal.II": 5}
+BUDGETS = {"lines of C++ in source and include": 58469, "words of pages written by hand": 58449,
+           "sources that include grids of deal.II": 28, "headers that include grids of deal.II": 5}
 TOPS = "benchmarks|cmake|container|doc|examples|include|meshes|packaging|prm|python|scripts|source|studies|tests"
 ROOMS = "app|base|contact|dam|dynamics|foundation|joints|mesh|motion|output|rock|solid|water"
 GRIDS = re.compile(r"#include <(deal\.II/(grid|dofs|fe|numerics)/[^>]*|voussoir/solid/(solid_grid|for_faces|cell_elasticity|triangulation)\.h)>")

@@ -4,6 +4,7 @@
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/dam_loads.h>
+#include <voussoir/dam/face_pressure.h>
 #include <voussoir/dam/reservoir.h>
 #include <voussoir/dynamics/modes.h>
 #include <voussoir/dynamics/newmark.h>
@@ -62,14 +63,17 @@ namespace
     model.free_base(); // no force is lost in a support
     Material concrete;
     concrete.density = 2400.;
-    Structure           structure = assemble_structure(model, {concrete}, true);
-    const double        weight = 2400. * 9.81 * thick * wide * tall;
-    ReservoirParameters water;
+    Structure    structure = assemble_structure(model, {concrete}, true);
+    const double weight = 2400. * 9.81 * thick * wide * tall;
+    Scene        scene;
+    scene.statics.gravity = 9.81;
     for (const double level : {30., 25., 22.}) // between nodes, too
     {
-      water.level = level;
+      scene.reservoir.level = level;
       Unknowns load(3 * structure.n_nodes(), 0.);
-      add_water_pressure(model, water, 9.81, load);
+      add_traction(
+          model, PhysicalId::upstream,
+          [&](const double z, const Vector3 &normal) { return water_traction(scene, 1., z, normal); }, load);
       const Vector3 force = sum(load);
       expect_close(force[0], 1000. * 9.81 * level * level / 2. * wide, 1e-3, "push of the water");
       expect(std::abs(force[1]) + std::abs(force[2]) < 1e-9 * force[0], "the water pushes along x");
@@ -80,8 +84,8 @@ namespace
     }
 
     // Westergaard: the integral of 7/8 rho sqrt(H h).
-    water.level = 30.;
-    const double expected = add_added_mass(model, water, structure);
+    scene.reservoir.level = 30.;
+    const double expected = add_added_mass(model, scene.reservoir, structure);
     expect_close(expected, .875 * 1000. * wide * 2. / 3. * 900., 1e-3, "added mass, integral");
     const Matrix3 total = sum(structure.mass), added = sum(structure.added_mass);
     for (unsigned int k = 0; k < 9; ++k)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tests of what the program says of its own error: the estimate of a run, `voussoir accuracy`.
+"""Tests of `voussoir accuracy`.
 
     program_accuracy.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
@@ -9,92 +9,12 @@ import fcntl
 import json
 import re
 import os
-import signal
 import sys
-from math import sqrt
 from pathlib import Path
 
-from program_safety import failed, stopped_by
-from run_program import VOUSSOIR, expect, refused, run_cases, runs, same, summary, table, write_scene
+from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, write_scene
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
-
-DURATION = ["--set", "Motion/Duration=1.5"]
-
-
-def openings(directory):
-    names, rows = table(f"{directory}/joints.csv")
-    up, down = names.index("opening_upstream"), names.index("opening_downstream")
-    return [row[face] for row in rows for face in (up, down)]
-
-
-def error(coarse, fine):
-    a, b = openings(coarse), openings(fine)
-    return sqrt(sum((x - y) ** 2 for x, y in zip(a, b)) / sum(y * y for y in b))
-
-
-def differences(fine, coarse):
-    """Of the largest openings, and at each place the largest over the times that both have; relative to the largest openings."""
-    size = sqrt(sum(x * x for x in openings(fine)))
-    names, (of_fine, of_coarse) = table(f"{fine}/joint_history.csv")[0], [table(f"{d}/joint_history.csv")[1] for d in (fine, coarse)]
-    columns, at = [k for k, name in enumerate(names) if name.startswith("opening")], {round(row[0], 9): row for row in of_fine}
-    apart = [max(abs(at[round(row[0], 9)][k] - row[k]) for row in of_coarse) for k in columns]
-    return sqrt(sum((a - b) ** 2 for a, b in zip(openings(fine), openings(coarse)))) / size, sqrt(sum(x * x for x in apart)) / size
-
-
-def estimate():
-    """The error of the time step is estimated within a factor of 2, and a resumed run says the same."""
-    write_scene()
-    run = ["scene.prm", *DURATION]
-    runs(*run, "--output", "fine", "--set", "Dynamics/Steps per sample=16")
-    text = runs(*run, "--output", "steps2", "--set", "Dynamics/Steps per sample=2", "--set", "Dynamics/Error estimate=true")
-    expect("estimated error of the time step: all openings" in text, text)
-    told, true = summary("steps2")["error_estimate"], error("steps2", "fine")
-    print(f"    estimate {told['openings']:.4f}, true {true:.4f}")
-    expect(true / 2 < told["openings"] < 2 * true, f"the estimate {told} is not within a factor of 2 of {true}")
-    expect(told["tension_upstream"] > 0 and told["tension_downstream"] > 0, f"{told}")
-    # The companion is the run at twice the step: the estimate is 0.4 of what the largest openings differ by, and no less than a tenth of
-    # what the histories do: with one step for a sample, where these are far apart, that is what counts.
-    runs(*run, "--output", "steps1", "--set", "Dynamics/Steps per sample=1")
-    largest, histories = differences("steps2", "steps1")
-    # Below 1 % the largest opening is extrapolated, which is nearer to the true one; above 1 % it is not.
-    of_1, of_2, of_16 = (summary(d)["extremes"]["max_opening"]["value"] for d in ("steps1", "steps2", "fine"))
-    print(f"    largest opening of 1, 2, 16 steps for a sample {of_1:.6g}, {of_2:.6g}, {of_16:.6g} m; extrapolated {told['extrapolated_opening']:.6g} m")
-    expect("extrapolated to a time step of zero" in text, text)
-    expect(abs(told["extrapolated_opening"] - of_2 - (of_2 - of_1) / 3) < 1e-6 * of_2, f"{told}, {of_1}, {of_2}")
-    print(f"    its error {100 * abs(of_2 / of_16 - 1):.2f} %, of the extrapolated one {100 * abs(told['extrapolated_opening'] / of_16 - 1):.2f} %")
-    expect(abs(told["extrapolated_opening"] - of_16) < .2 * abs(of_2 - of_16), f"{told}, {of_2}, {of_16}")
-    expect(abs(told["openings"] - max(0.4 * largest, 0.1 * histories)) < 1e-5 * told["openings"], f"{told}, {largest}, {histories}")
-    by_histories = [*run, "--set", "Motion/Time step=0.02", "--set", "Motion/Factor=2", "--set", "Joints/Friction=0.3"]
-    runs(*by_histories, "--output", "long2", "--set", "Dynamics/Steps per sample=2", "--set", "Dynamics/Error estimate=true")
-    runs(*by_histories, "--output", "long1", "--set", "Dynamics/Steps per sample=1")
-    largest, histories = differences("long2", "long1")
-    print(f"    long steps: largest openings {largest:.4f} apart, histories {histories:.4f}")
-    estimated = summary("long2")["error_estimate"]["openings"]
-    expect(estimated > .01 and "extrapolated_opening" not in summary("long2")["error_estimate"], f"{estimated}")
-    expect(abs(estimated - max(0.4 * largest, 0.1 * histories)) < 1e-5 * estimated, f"{estimated}, {largest}, {histories}")
-    tied = ["scene.prm", "--set", "Joints/Model=tied", "--set", "Motion/Duration=1", "--set", "Dynamics/Error estimate=true"]
-    text = runs(*tied, "--output", "tied")
-    expect("extrapolated" not in text and "extrapolated_opening" not in summary("tied")["error_estimate"], text)
-    # That of the largest opening is 0.4 of what both runs differ by there, and no less than the share of all openings: both cases occur.
-    wide = ["scene.prm", "--set", "Motion/Duration=1", "--set", "Motion/Time step=0.02"]
-    runs(*wide, "--output", "wide2", "--set", "Dynamics/Steps per sample=2", "--set", "Dynamics/Error estimate=true")
-    runs(*wide, "--output", "wide1", "--set", "Dynamics/Steps per sample=1")
-    for fine, coarse in (("steps2", "steps1"), ("wide2", "wide1")):
-        a, b = (summary(d)["extremes"]["max_opening"]["value"] for d in (fine, coarse))
-        of = summary(fine)["error_estimate"]
-        print(f"    {fine}: largest opening {a:.4g} m, coarser {b:.4g} m, {of}")
-        expect((0.4 * abs(a - b) > of["openings"] * a) == (fine == "wide2"), f"{fine} is not the case that it is to be: {of}, {a}, {b}")
-        expect(abs(of["largest_opening"] - max(0.4 * abs(a - b), of["openings"] * a)) < 1e-5 * of["largest_opening"], f"{of}, {a}, {b}")
-    runs(*run, "--output", "plain", "--set", "Dynamics/Steps per sample=2")
-    same("plain", "steps2", 0., ("history", "joint_history", "energy"))
-    settings = [*DURATION, "--set", "Dynamics/Error estimate=true", "--set", "Dynamics/Steps per sample=2"]
-    failed(stopped_by(signal.SIGTERM, "kept", *settings), "SIGTERM")
-    runs("scene.prm", *settings, "--resume", "--output", "kept")
-    for name, value in summary("kept")["error_estimate"].items():
-        expect(abs(value - told[name]) <= 1e-6 * told[name], f"a resumed run estimates {name} = {value}, not {told[name]}")
-    refused(["scene.prm", "--set", "Dynamics/Error estimate=true", "--set", "Foundation/Model=rock", "--set",
-             "Mesh/Arch210/Rock/Enabled=true"], "Dynamics/Error estimate", "voussoir accuracy")
 
 
 def command():
@@ -400,4 +320,4 @@ def table_of_text(name):
 
 
 if __name__ == "__main__":
-    run_cases(estimate, command, on_rock, water, maths, bars)
+    run_cases(command, on_rock, water, maths, bars)

@@ -31,7 +31,7 @@ def hostile_run(target="file:///etc/hostname"):
     """The output directory of a run whose files another person has changed: hostile text wherever a report shows a text."""
     write_scene("scene.prm", LIMITS)
     runs("scene.prm", "--output", "sound", "--overwrite", *settings("Joints/Friction=0.3", "Joints/Model=KSM", "Limits/Key shear stress=1 MPa",
-                                                                    "Limits/Base friction=1", "Limits/Sliding safety=1.3", "Dynamics/Error estimate=true"))
+                                                                    "Limits/Base friction=1", "Limits/Sliding safety=1.3"))
     text, found = HOSTILE.format(target), summary("sound")
     directory = Path('<img src=x onerror=ran()>"' + "'")
     shutil.rmtree(directory, ignore_errors=True)

@@ -87,7 +87,6 @@ def rigid():
     any_number("few", (5,), *SHORT, *settings("Joints/Model=FJB"))
     any_number("tied", (2,), *SHORT, *settings("Joints/Model=tied"))
     any_number("double", (2,), *SHORT, *five, *settings("Dynamics/Factors=double"))
-    any_number("estimate", (2,), *SHORT, *settings("Dynamics/Error estimate=true"))
     any_number("water", (2,), *SHORT, *WATER)
     any_number("sweeps", (2,), *SHORT, *five, *settings("Contact/Method=sweeps", "Contact/Maximum iterations=2000"))
     any_number("massless", (2,), *SHORT, *settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true",

@@ -101,10 +101,9 @@ def page():
 
 
 def beside_static():
-    """A static state beside an earthquake: what moves keeps its figures over time, the static state has no duration of overstress,
-    and the error of the tension away from the base stands beside that, not beside the singular value with the base."""
+    """A static state beside an earthquake: what moves keeps its figures over time, the static state has no duration of overstress."""
     write_scene("limited.prm", LIMITS)
-    runs("limited.prm", "--output", "moving", "--overwrite", "--set", "Dynamics/Error estimate=true")
+    runs("limited.prm", "--output", "moving", "--overwrite")
     runs("limited.prm", "--output", "resting", "--overwrite", "--set", "Motion/Source=none")
     runs("report", "moving", "resting", "--output", "pair.html")
     read = Reader("pair.html")
@@ -112,11 +111,8 @@ def beside_static():
         expect(words in read.text, f"'{words}' is not on the page of a static state and an earthquake")
     expect("single time" not in read.text and "resting: its response over time" in read.text, read.text[-1500:])
     text = Path("pair.html").read_text(encoding="utf-8")
-    row = {name: text[text.index(name):].partition("</tr>")[0] for name in ("Duration of overstress", "stream, away from the base", "stream, with the base")}
-    expect(row["Duration of overstress"].count("<td") == 3 and ">–<" in row["Duration of overstress"], row["Duration of overstress"])
-    expect("±" in row["stream, away from the base"] and "±" not in row["stream, with the base"], f"{row}")
-    found = summary("moving")["error_estimate"]["tension_upstream"] * 1e-6
-    expect(f"± {found:.2g}"[:5] in row["stream, away from the base"], f"{found}: {row}")
+    row = text[text.index("Duration of overstress"):].partition("</tr>")[0]
+    expect(row.count("<td") == 3 and ">–<" in row, row)
     facts = text[text.index("Dam and scene"):text.index("What differs")]
     expect("<td>Tension</td>" not in facts and "largest opening" not in facts, "results stand among what the program understood")
     for strength in ("0.4 MPa", "0.3 MPa"):  # other levels may decide: no title may name that of one run for all
@@ -134,7 +130,7 @@ def browser():
         print("SKIPPED: no Chromium, so the page is not looked at (on Debian: apt-get install chromium)")
         sys.exit(77)
     two_runs()
-    runs("limited.prm", "--output", "limited", "--overwrite", "--set", "Dynamics/Error estimate=true", "--set", "Output/Solution interval=10")
+    runs("limited.prm", "--output", "limited", "--overwrite", "--set", "Output/Solution interval=10")
     runs("modes", "limited.prm", "--output", "limited/modes")
     runs("report", "limited", "plain", "tied", "--output", "both.html")
     runs("report", "limited", "--pdf")

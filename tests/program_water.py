@@ -396,8 +396,7 @@ def messages():
                             ("Pressure depths", "300 m", "195 m")),
                            (["Reservoir/Model=incompressible"], ("incompressible", "acoustic", "modes")),
                            (["Reservoir/Model=added mass table"], ("Reservoir/Table",)),
-                           (["Reservoir/Water level=-5"], ("water level",)), (["Reservoir/Water level=300"], ("Water level", "above")),
-                           (["Dynamics/Error estimate=true"], ("Error estimate", "accuracy"))):
+                           (["Reservoir/Water level=-5"], ("water level",)), (["Reservoir/Water level=300"], ("Water level", "above"))):
         refused(["scene.prm", "--validate", *ACOUSTIC, *settings(*entries)], *parts)
     runs("scene.prm", "--validate", *ACOUSTIC, *settings("Reservoir/Water level=210.0000001", "Reservoir/Element size=25", "Dynamics/Steps per sample=2"))
     for entries, part in ((["Reservoir/Sound speed=1500"], "Sound speed"), ([*("Reservoir/Model=acoustic", "Reservoir/Factor=0.5")], "Factor")):

@@ -344,6 +344,15 @@ namespace
     expect(scene.warnings.empty() && scene.joints.friction == .4, "twice by --set");
   }
 
+  /** A removed entry produces a warning. */
+  void test_removed()
+  {
+    for (const std::string value : {"true", "false"})
+      expect_warnings(
+          {{"subsection Dynamics\nset Error estimate = " + value + "\nend\n",
+            {"warnings.prm, line 2", "Dynamics/Error estimate", "was removed", "voussoir accuracy"}}});
+  }
+
   /** A law that is in no table may use any entry of the joints. */
   void test_own_law()
   {
@@ -443,6 +452,7 @@ int main()
               {"zones and tables", test_sources},
               {"relations", test_relations},
               {"entries twice", test_twice},
+              {"removed entries", test_removed},
               {"a law of one's own", test_own_law},
               {"usual ranges", test_usual_ranges},
               {"loads", test_loads},

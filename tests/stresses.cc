@@ -2,6 +2,7 @@
 // Stresses where tractions are known: on faces, edges and corners, and at joints.
 
 #include <voussoir/dam/dam_loads.h>
+#include <voussoir/dam/face_pressure.h>
 #include <voussoir/dam/load_table.h>
 #include <voussoir/dam/tractions.h>
 #include <voussoir/joints/joint_system.h>
@@ -448,16 +449,16 @@ namespace
   /** A wall under water that stands on its base: the tractions on all its faces are those that are known. */
   void dam()
   {
-    SolidModel          model(Grids::wall({{thick, wide, tall}}, {{2, 4, 6}}, 4), 1);
-    const Structure     structure = assemble_structure(model, {Material()}, true);
-    ReservoirParameters water;
-    water.level = 26.;
-    Unknowns load(3 * structure.n_nodes(), 0.), u;
-    add_water_pressure(model, water, 9.81, load);
-    JointSystem(structure, JointLaws(), ContactParameters(), {}).solve_free(load, u);
-    Scene scene;
-    scene.reservoir = water;
+    SolidModel      model(Grids::wall({{thick, wide, tall}}, {{2, 4, 6}}, 4), 1);
+    const Structure structure = assemble_structure(model, {Material()}, true);
+    Scene           scene;
+    scene.reservoir.level = 26.;
     scene.statics.gravity = 9.81;
+    Unknowns load(3 * structure.n_nodes(), 0.), u;
+    add_traction(
+        model, PhysicalId::upstream,
+        [&](const double z, const Vector3 &normal) { return water_traction(scene, 1., z, normal); }, load);
+    JointSystem(structure, JointLaws(), ContactParameters(), {}).solve_free(load, u);
     Tractions            tractions(model, structure, known_traction(scene));
     const StressRecovery recovery(model, {Material()}, true, tractions.faces);
     std::vector<Stress>  stress;

@@ -25,7 +25,7 @@ HEADLINES = {  # quantity -> title, unit, least value that has a bar
     "crest_displacement": ("crest displacement", "m", 1e-5)}
 UNITS = {"m": (1e3, "mm"), "Pa": (1e-6, "MPa")}  # of printed values
 MARGIN = 1.25
-UNRELATED = ("Output/", "Dynamics/Error estimate", "Contact/Write")  # beginnings of entries that do not change the results
+UNRELATED = ("Output/", "Contact/Write")  # beginnings of entries that do not change the results
 
 OF_STRESSES = ("Output/Stress recovery", "Output/Envelope interval")
 SMALLEST_SHARE = 0.5  # of a value in the window, relative to that of the run: below, the window does not show this value

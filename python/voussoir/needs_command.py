@@ -99,8 +99,7 @@ class Needs:
     def output_settings(self, entries: Mapping[str, str]) -> Dict[str, Any]:
         """Settings of all runs. The change of the sliding safety does not depend on the friction if there is no cohesion."""
         common: Dict[str, Any] = dict(text.split("=", 1) for text in self.settings)
-        common.update({"Output/Figures": "false", "Output/Frames": 0, "Output/Solution interval": 0, "Output/Block forces": "true",
-                       "Dynamics/Error estimate": "false"})
+        common.update({"Output/Figures": "false", "Output/Frames": 0, "Output/Solution interval": 0, "Output/Block forces": "true"})
         if entries["Output/Envelope interval"] == "0":
             common["Output/Envelope interval"] = 1
         if float(entries["Limits/Base friction"]) == 0 and float(entries["Limits/Base cohesion"]) == 0:

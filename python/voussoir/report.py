@@ -308,8 +308,7 @@ def checks(page, runs):
     rows = [("Energy balance, over the largest energy", lambda s: number(s["energy_balance_error"], "")),
             ("Residual of the contact problems, relative", lambda s: number(s["contact_residual"], "")),
             ("Newton steps per time step, mean and largest", lambda s: f"{s['newton_iterations']['mean']:.2f}, {s['newton_iterations']['max']:.0f}"),
-            ("Time steps", lambda s: f"{s['steps']} of {s['time_step']:g} s" if s["steps"] else "the static state"),
-            ("Estimated error of the time step, largest openings at the crest", lambda s: f"{100 * s['error_estimate']['openings']:.2g} %")]
+            ("Time steps", lambda s: f"{s['steps']} of {s['time_step']:g} s" if s["steps"] else "the static state")]
     body = []
     for title, value in rows:
         cells = []

@@ -42,9 +42,7 @@ def opening(found):
     if "max_opening" not in found:
         return "There are no joints that can open."
     item = found["max_opening"]
-    error = f", with an estimated error of {number(item.error, item.unit, 2)} mm of the time step" if isinstance(item.error, (int, float)) else ""
-    if item.bar:
-        error = f", error bar {bar_words(item)} {item.unit}"
+    error = f", error bar {bar_words(item)} {item.unit}" if item.bar else ""
     text = f"By at most <b>{value_of(item)}</b>{place_and_time(item)}{error}."
     if "max_slip" in found:
         text += f" Their faces slip by at most {value_of(found['max_slip'])}{place_and_time(found['max_slip'])}."

@@ -18,8 +18,6 @@ EXTREMES = {
     "max_tension_upstream": ("Tension upstream, with the base", "MPa"),
     "max_tension_downstream": ("Tension downstream, with the base", "MPa"),
     "max_compression": ("Compression, with the base", "MPa")}
-ERRORS = {"max_opening": "largest_opening", "max_tension_upstream_away_from_base": "tension_upstream",
-          "max_tension_downstream_away_from_base": "tension_downstream"}
 SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6, "kN": 1e-3}
 MINUS = "\N{MINUS SIGN}"
 
@@ -92,8 +90,8 @@ def bar_words(item):
 class Item:
     """A line of the table of results: a value in SI, perhaps with a place, a time and a limit."""
 
-    def __init__(self, title, unit, found, limit=None, error=None):
-        self.title, self.unit, self.limit, self.error = title, unit, limit, error
+    def __init__(self, title, unit, found, limit=None):
+        self.title, self.unit, self.limit = title, unit, limit
         self.bar = None  # least and largest value by `voussoir accuracy`
         found = found if isinstance(found, dict) else {"value": found}
         self.value, self.place, self.time = found["value"], found.get("place"), found.get("time")
@@ -139,8 +137,7 @@ def unit_of(name):
 
 def items(run):
     """Results of a run in sequence: {key: Item}."""
-    limits, errors, found = limits_of(run), run.summary.get("error_estimate"), {}
-    errors = errors if isinstance(errors, dict) else {}
+    limits, found = limits_of(run), {}
     extremes_of_run = run.summary.get("extremes", {})
     for key in sorted(extremes_of_run, key=lambda key: list(EXTREMES).index(key) if key in EXTREMES else len(EXTREMES)):
         value = extremes_of_run[key]
@@ -151,7 +148,7 @@ def items(run):
         limit = limits.get(name)
         if limit and f"max_{name}_{AWAY}" in extremes_of_run and key.endswith(AWAY) != ("value_with_base" in limit):
             limit = None  # it is compared with the other one; in earlier versions with that of the whole face
-        found[key] = Item(title, unit, value, limit, errors.get(ERRORS.get(key)))
+        found[key] = Item(title, unit, value, limit)
     for key, of in (("waterstop", "at the waterstop"), ("residual", "that remains")):
         for name in ("opening", "slip"):
             if f"max_{name}" in run.summary.get(key, {}):
@@ -322,8 +319,7 @@ def extremes(runs):
             if one and one.bar:
                 cells.append((f'{number(one.value, one.unit)} <span class="unit">{bar_words(one)}</span>', one.state))
                 continue
-            error = f' <span class="unit">± {number(one.error, one.unit, 2)}</span>' if one and isinstance(one.error, (int, float)) else ""
-            cells.append((f"{number(one.value, one.unit)}{error}", one.state) if one else "–")
+            cells.append((number(one.value, one.unit), one.state) if one else "–")
         if limited:
             given = dict.fromkeys(with_unit(of_run[key].limit["limit"], item.unit).removesuffix(item.unit).strip()
                                   for of_run in found if key in of_run and of_run[key].limit)  # runs may have their own

@@ -334,7 +334,7 @@ namespace Voussoir
             (8. * factors.entries + std::max(8. * factors.dense, 8. * factors.kept + 12. * factors.operators +
                                                                      8. * factors.diagonal)) +
         8. * factors.base;
-    need.run = need.of_others = program + dam + need.halved_step * (scene.error_estimate ? 2. : 1.);
+    need.run = need.of_others = program + dam + need.halved_step;
     if (scene.foundation.model == "rock")
     {
       double others = 0.;

@@ -3,7 +3,7 @@
 
 namespace Voussoir
 {
-  RunObservers::RunObservers(const RunState &run, Log &log)
+  RunObservers::RunObservers(const RunState &run)
       : history(run), joints(run), stresses(run, joints.joints), stability(run), fields(run, stresses),
         frames(run, stresses), list{&stability, &joints, &history}
   {
@@ -11,8 +11,6 @@ namespace Voussoir
       list.push_back(&blocks.emplace(run));
     if (!run.scene().limits.wedges.empty())
       list.push_back(&wedges.emplace(run));
-    if (run.scene().error_estimate)
-      list.push_back(&time_error.emplace(run, joints.joints, stresses, log));
     if (run.dam->water && run.n_steps > 0)
     {
       list.push_back(&water.emplace(run));

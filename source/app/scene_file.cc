@@ -113,6 +113,12 @@ namespace Voussoir
         throw InputError(file + ": subsection \"" + section.back() + "\" is not closed. Add an \"end\".");
     }
 
+    /** Entries that were removed without an effect on results: what to use instead. */
+    const std::map<std::string, std::string> removed = {
+        {"Dynamics/Error estimate",
+         "was removed in version 0.5.0, which does not change the results. Remove the entry, and use `voussoir "
+         "accuracy` to estimate the error of the time step."}};
+
     /** Returns the declaration of an entry. Throws InputError, with the most similar one, for an unknown
      * entry name. */
     const DeclaredEntry &declaration(const std::vector<DeclaredEntry> &known, const Entry &entry)
@@ -183,16 +189,21 @@ namespace Voussoir
     }
     std::map<std::string, WrittenEntry>                        written; // the last value is used
     std::map<std::pair<std::string, std::size_t>, std::string> places;  // by entry and file
-    std::vector<std::string>                                   twice;
+    std::vector<std::string>                                   warnings;
     for (Entry &entry : entries)
     {
+      if (const auto gone = removed.find(joined(entry.path)); gone != removed.end())
+      {
+        warnings.push_back(entry.place + ": entry \"" + gone->first + "\" " + gone->second);
+        continue;
+      }
       const DeclaredEntry &declared = declaration(known, entry);
       apply(prm, declared, entry);
       written[declared.name()] = {declared, entry.value, entry.place};
       std::string &before = places[{declared.name(), entry.text}];
       if (!before.empty() && entry.text != Entry::no_number)
-        twice.push_back(declared.name() + " is in the file twice, " + before + " and " + entry.place +
-                        ": the last value is used, " + entry.value + ". Remove one of them.");
+        warnings.push_back(declared.name() + " is in the file twice, " + before + " and " + entry.place +
+                           ": the last value is used, " + entry.value + ". Remove one of them.");
       before = entry.place;
     }
     scene.check();
@@ -202,6 +213,6 @@ namespace Voussoir
       if (const auto found = written.find(declared.name()); found != written.end())
         in_order.push_back(found->second);
     scene.warnings = scene_warnings(scene, in_order, prm.usual_ranges());
-    scene.warnings.insert(scene.warnings.end(), twice.begin(), twice.end());
+    scene.warnings.insert(scene.warnings.end(), warnings.begin(), warnings.end());
   }
 } // namespace Voussoir

@@ -160,13 +160,11 @@ namespace Voussoir
     counters.statics = watch.seconds();
     watch = Stopwatch();
     state.start(contact_parameters("shaking"));
-    observers.emplace(state, log);
+    observers.emplace(state);
     counters.statics += watch.seconds();
     if (state.n_steps > 0)
     {
-      const double memory = state.integrator->memory() +
-                            (observers->time_error ? observers->time_error->memory_consumption() : 0.);
-      const std::vector<double> bytes = Ranks::of_all(memory);
+      const std::vector<double> bytes = Ranks::of_all(state.integrator->memory());
       log.line("Shaking   %.2f s in %u steps of %g s; memory of joint operators and factors %.2f GiB",
                state.grid().duration(), state.n_steps, state.motion.dt,
                std::accumulate(bytes.begin(), bytes.end(), 0.) / std::pow(2., 30));

@@ -249,8 +249,6 @@ namespace Voussoir
       summary.add("wedges", observers.wedges->json());
     summary.add_texts("warnings", log.warnings());
     summary.add("per_rank", ranks.json());
-    if (observers.time_error && observers.time_error->has_estimate())
-      summary.add("error_estimate", observers.time_error->json());
     if (observers.stresses.is_recording() && scene.strength_of_area() > 0.)
       summary.add("tension_above_strength", observers.stresses.json_of_strength());
     dam.foundation->add_to_summary(summary, run.grid());

@@ -40,8 +40,6 @@ namespace Voussoir
       row.level_entry = "Reservoir/Water level";
       row.level = [](const Scene &scene) { return scene.reservoir.level; };
       row.help = "with its added mass";
-      row.add = [](const Scene &scene, const LoadSite &site, StaticLoad &load)
-      { add_water_pressure(site.model, scene.reservoir, scene.statics.gravity, load.force); };
       row.traction = water_traction;
       row.surface = PhysicalId::upstream;
       row.idle = {{"Reservoir/Density is 0",

@@ -3,7 +3,6 @@
 #include <voussoir/base/model_choices.h>
 #include <voussoir/base/names.h>
 #include <voussoir/dam/reservoir.h>
-#include <voussoir/solid/for_faces.h>
 
 #include <algorithm>
 #include <cmath>
@@ -86,26 +85,5 @@ namespace Voussoir
           entries["Reservoir/Element size"] = number_text(size);
         choices.add("water", "compressible, reflection " + number_text(alpha), entries);
       }
-  }
-
-  void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, const double gravity,
-                          Unknowns &load)
-  {
-    // More points than for a smooth pressure, because the water line intersects faces.
-    for_faces(model, PhysicalId::upstream, 8,
-              [&](const FEFaceValues<3> &values, const auto &dofs)
-              {
-                for (const unsigned int q : values.quadrature_point_indices())
-                {
-                  const double depth = reservoir.level - values.quadrature_point(q)[2];
-                  if (depth > 0.)
-                    for (unsigned int i = 0; i < dofs.size(); ++i)
-                      if (const unsigned int e = model.equation[dofs[i]]; e != rigid_ground)
-                        for (unsigned int c = 0; c < 3; ++c)
-                          load[3 * e + c] -= reservoir.density * gravity * depth *
-                                             values.normal_vector(q)[c] * values.shape_value(i, q) *
-                                             values.JxW(q);
-                }
-              });
   }
 } // namespace Voussoir

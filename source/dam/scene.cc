@@ -356,10 +356,6 @@ namespace Voussoir
         "its samples. With rock the time step must be below the critical one, which --validate prints.",
         Patterns::Integer(1));
     prm.add_parameter(
-        "Error estimate", error_estimate,
-        "true: estimate the error of the extremes due to the time step, by a comparison run with twice "
-        "the step. It increases the time of the run by 40 to 90 %. Not on rock with mass.");
-    prm.add_parameter(
         "Impact", impact_rule,
         "Joint forces and velocities of closed joints. mean-force: the forces are means over "
         "the step, so joints never create energy. For comparison: impulse-consistent (forces at the end "
@@ -500,14 +496,6 @@ namespace Voussoir
     zone_materials(concrete_zones, "Concrete/Zones");
     foundation.zone_materials();
     damping.check();
-    if (foundation.model == "rock" && error_estimate)
-      throw InputError(
-          "Entry \"Dynamics/Error estimate\" requires a rigid base or massless rock, because rock with mass "
-          "has its own time steps. Remove the entry, and use `voussoir accuracy` to estimate the error.");
-    if (loads.uplift.in_earthquake != "unchanged" && error_estimate)
-      throw InputError(
-          "Entry \"Dynamics/Error estimate\" requires \"Loads/Uplift/In earthquake\" = unchanged. "
-          "Remove one of the entries, or use `voussoir accuracy` to estimate the error.");
     if (foundation.model == "rock" && foundation.substeps > 1 && !foundation.is_subcycled())
       throw InputError("\"Foundation/Coupling\" = partition with \"Foundation/Substeps\" above 1 was removed "
                        "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "
@@ -525,10 +513,6 @@ namespace Voussoir
                        foundation.model +
                        ": a rigid base moves as one body, and rock with mass receives the ground motion from "
                        "below. Set the model to massless, or remove the entry.");
-    if (reservoir.is_acoustic() && error_estimate)
-      throw InputError(
-          "\"Dynamics/Error estimate\" has no acoustic water. Remove the entry, and use `voussoir "
-          "accuracy`, or set \"Reservoir/Model\" to Westergaard.");
     joints.check();
     loads.check();
     static_stages(statics.stages);

@@ -103,7 +103,8 @@ namespace Voussoir
     if (!std::isfinite(work.input))
       throw_not_finite(structure, now);
     const double                   kinetic_before = kinetic_energy_of_pairs();
-    const std::vector<PairHistory> histories = level.system.histories(step_start, step_memory);
+    const std::vector<PairHistory> histories =
+        laws.histories(step_start, rule == ImpactRule::mean_force, step_memory);
     if (rule != ImpactRule::none)
       impact.correct_velocity(level.system, histories, dt, change, now.v, impulse);
     account(work, kinetic_before);
@@ -135,9 +136,10 @@ namespace Voussoir
         equation->solve(level.system, now, step, {offset, start, memory, force, gap, u_new, base});
     if (result.converged)
     {
-      of_friction = level.system.friction_correction(start, force, gap, memory);
+      const bool is_mean = rule == ImpactRule::mean_force;
+      of_friction = laws.friction_correction(start, is_mean, force, gap, memory);
       step_memory = memory;
-      level.system.commit(start, force, gap, memory);
+      laws.commit(start, is_mean, force, gap, memory);
       now.memory.swap(memory);
       if (single_factors)
         now.carried.gap = gap;

@@ -148,16 +148,11 @@ namespace Voussoir
         if (one_body)
           return nullptr;
         dam_nodes.mark(structure);
-        supported = make_support(structure, grid.dt);
+        supported = std::make_unique<MasslessSupport>(rock, dam_nodes, structure.stiffness_damping, grid.dt,
+                                                      offset, base_motion.get());
         supported->start_account(at_rest);
         at_rest.clear();
         return supported.get();
-      }
-
-      std::unique_ptr<Support> support_of_companion(const Structure &structure,
-                                                    const double     dt) const override
-      {
-        return one_body ? nullptr : make_support(structure, dt);
       }
 
       std::vector<std::pair<std::string, double>> energies() const override
@@ -184,12 +179,6 @@ namespace Voussoir
       }
 
     private:
-      std::unique_ptr<MasslessSupport> make_support(const Structure &structure, const double dt) const
-      {
-        return std::make_unique<MasslessSupport>(rock, dam_nodes, structure.stiffness_damping, dt, offset,
-                                                 base_motion.get());
-      }
-
       /** Adds @p factor times the rock to the body of the dam. */
       void add_rock(const double factor, Structure &structure) const
       {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/arch_rock.h>
 #include <voussoir/mesh/grading.h>
 
@@ -9,8 +10,6 @@ namespace Voussoir
 {
   namespace
   {
-    using Vector = std::array<double, 3>;
-
     constexpr double largest_size = 1.7;   ///< largest element on long grid lines, in element sizes
     constexpr double smallest_size = 0.35; ///< smallest mean on short grid lines, likewise
 
@@ -40,7 +39,7 @@ namespace Voussoir
       {
         return column * (dam.elements_up + 1) * (n_dam_layers + 1) + layer;
       }
-      const Vector &base_node(const unsigned int column, const unsigned int layer) const
+      const Vector3 &base_node(const unsigned int column, const unsigned int layer) const
       {
         return mesh.nodes[dam_node(column, layer)];
       }
@@ -48,9 +47,9 @@ namespace Voussoir
       /** Returns the thickness of the outermost layer of the dam at a column, along x [m]. */
       double base_size(const unsigned int column, const bool is_upstream) const
       {
-        const Vector &a = base_node(column, is_upstream ? 0 : n_dam_layers - 1);
-        const Vector &b = base_node(column, is_upstream ? 1 : n_dam_layers);
-        const double  dx = b[0] - a[0], dy = b[1] - a[1];
+        const Vector3 &a = base_node(column, is_upstream ? 0 : n_dam_layers - 1);
+        const Vector3 &b = base_node(column, is_upstream ? 1 : n_dam_layers);
+        const double   dx = b[0] - a[0], dy = b[1] - a[1];
         return (dx * dx + dy * dy) / dx;
       }
 
@@ -131,7 +130,7 @@ namespace Voussoir
         n_i = n_columns + 2 * first_column;
         n_j = first_layer + n_dam_layers + n_downstream + downstream.count;
         n_k = n_down + below.count;
-        surface.assign((n_i + 1) * (n_j + 1), Vector{});
+        surface.assign((n_i + 1) * (n_j + 1), Vector3{});
       }
 
       /** Computes the sizes and the number of elements beside the dam. */
@@ -147,7 +146,7 @@ namespace Voussoir
         }
       }
 
-      Vector &ground(const unsigned int i, const unsigned int j) { return surface[i * (n_j + 1) + j]; }
+      Vector3 &ground(const unsigned int i, const unsigned int j) { return surface[i * (n_j + 1) + j]; }
 
       /** Computes the ground in the columns of the dam: lines along the valley, through the base nodes. */
       void make_dam_columns()
@@ -164,7 +163,7 @@ namespace Voussoir
             const unsigned int m = is_upstream ? n_upstream : n_downstream;
             const double       face = is_upstream ? x_upstream : x_downstream;
             const Layers      &outer = is_upstream ? upstream : downstream;
-            const Vector       from = ground(i, start);
+            const Vector3      from = ground(i, start);
             const double       length = std::abs(face - direction * outer.width() - from[0]);
             const auto         d = graded(m, length, base_size(c, is_upstream), outer.size);
             for (unsigned int t = 1; t < m; ++t)
@@ -215,16 +214,16 @@ namespace Voussoir
         const auto         d = graded(n_side, length, column_size[bank_number], side.size);
         const auto         slope = [&](const unsigned int j)
         {
-          const Vector &inside = ground(end - bank, j);
+          const Vector3 &inside = ground(end - bank, j);
           return (ground(end, j)[0] - inside[0]) / std::abs(ground(end, j)[1] - inside[1]);
         };
         const double dam_slope = 0.5 * (slope(first_layer) + slope(first_layer + n_dam_layers));
         const auto   x = straight_layers(end - first_column, 0.2 * length * dam_slope);
         for (unsigned int j = 0; j <= n_j; ++j)
         {
-          const bool   is_straight = j <= upstream.count || j + downstream.count >= n_j;
-          const double leaving = dam_slope * fade(distance(j));
-          const Vector from = ground(end, j);
+          const bool    is_straight = j <= upstream.count || j + downstream.count >= n_j;
+          const double  leaving = dam_slope * fade(distance(j));
+          const Vector3 from = ground(end, j);
           for (unsigned int t = 1; t < n_side; ++t)
           {
             const double eta = d[t] / length, f = fade(eta);
@@ -263,10 +262,10 @@ namespace Voussoir
        * the dam. An element loses at most a third of its length. */
       void smooth()
       {
-        const std::vector<Vector> unsmoothed = surface;
-        const auto                gap = [&](const unsigned int i, const unsigned int j)
+        const std::vector<Vector3> unsmoothed = surface;
+        const auto                 gap = [&](const unsigned int i, const unsigned int j)
         {
-          const Vector *at = &unsmoothed[i * (n_j + 1) + j];
+          const Vector3 *at = &unsmoothed[i * (n_j + 1) + j];
           return at[1][0] - at[0][0];
         };
         const double       column = (y_end[0] + y_end[1]) / n_columns;
@@ -274,12 +273,12 @@ namespace Voussoir
         for (unsigned int sweep = 0; sweep < n_sweeps; ++sweep)
           for (unsigned int j = upstream.count + 1; j + downstream.count < n_j; ++j)
           {
-            Vector before = ground(side.count, j);
+            Vector3 before = ground(side.count, j);
             for (unsigned int i = side.count + 1; i + side.count < n_i; ++i)
             {
-              const double share = 1 - fade(std::max(distance(j), distance_of_column(i)));
-              const Vector here = ground(i, j), &after = ground(i + 1, j);
-              const double middle =
+              const double  share = 1 - fade(std::max(distance(j), distance_of_column(i)));
+              const Vector3 here = ground(i, j), &after = ground(i + 1, j);
+              const double  middle =
                   before[0] + (after[0] - before[0]) * (here[1] - before[1]) / (after[1] - before[1]);
               const double lower = ground(i, j - 1)[0] + 2. / 3 * gap(i, j - 1),
                            upper = ground(i, j + 1)[0] - 2. / 3 * gap(i, j);
@@ -297,9 +296,9 @@ namespace Voussoir
         for (unsigned int i = 0; i <= n_i; ++i)
           for (unsigned int j = 0; j <= n_j; ++j)
           {
-            const Vector top = ground(i, j);
-            const auto   d = graded(n_down, top[2] - z_bottom - below.width(), surface_size, below.size);
-            const bool   is_base = i >= first_column && i <= first_column + n_columns && j >= first_layer &&
+            const Vector3 top = ground(i, j);
+            const auto    d = graded(n_down, top[2] - z_bottom - below.width(), surface_size, below.size);
+            const bool    is_base = i >= first_column && i <= first_column + n_columns && j >= first_layer &&
                                  j <= first_layer + n_dam_layers;
             for (unsigned int k = 0; k <= n_k; ++k)
             {
@@ -375,7 +374,7 @@ namespace Voussoir
       unsigned int          n_upstream, n_downstream, n_side, n_down; // elements between dam and layers
       unsigned int          first_column, first_layer;                // first ones of the dam
       unsigned int          n_i, n_j, n_k; // elements across, along the stream, down
-      std::vector<Vector>   surface;       // ground and base, by i and j
+      std::vector<Vector3>  surface;       // ground and base, by i and j
       std::vector<unsigned int> number;    // number of the node i, j, k
     };
   } // namespace

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/boundary_lines.h>
 
 #include <algorithm>
@@ -10,8 +11,6 @@ namespace Voussoir
 {
   namespace
   {
-    using Vector = std::array<double, 3>;
-
     constexpr double tolerance = 1e-5; ///< relative to the spacing
 
     constexpr CutFace cut_faces[5] = {CutFace::upstream, CutFace::downstream, CutFace::right, CutFace::left,
@@ -96,9 +95,9 @@ namespace Voussoir
         const auto next = across(entry.cell, entry.cell_face);
         for (unsigned int v = 0; v < 4; ++v)
         {
-          const Vector &a = mesh.nodes[mesh.cells[entry.cell].nodes[hex_faces[entry.cell_face][v]]];
-          const Vector &b = mesh.nodes[next[v]];
-          shortest = std::min(shortest, std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+          const Vector3 &a = mesh.nodes[mesh.cells[entry.cell].nodes[hex_faces[entry.cell_face][v]]];
+          const Vector3 &b = mesh.nodes[next[v]];
+          shortest = std::min(shortest, distance_between(a, b));
         }
         return shortest;
       }
@@ -155,7 +154,7 @@ namespace Voussoir
           if (known == none)
           {
             known = lines.size();
-            const Vector &a = mesh.nodes[line[0]], &b = mesh.nodes[line[1]];
+            const Vector3 &a = mesh.nodes[line[0]], &b = mesh.nodes[line[1]];
             lines.push_back({face, std::abs(b[normal_axis(face)] - a[normal_axis(face)]), volume, line});
           }
           else if (lines[known].face == face && lines[known].nodes != line)
@@ -170,11 +169,11 @@ namespace Voussoir
       void check(const GridLine &line) const
       {
         const unsigned int axis = normal_axis(line.face);
-        const Vector      &start = mesh.nodes[line.nodes[0]];
+        const Vector3     &start = mesh.nodes[line.nodes[0]];
         const double       step = mesh.nodes[line.nodes[1]][axis] - start[axis];
         for (unsigned int k = 1; k < line.nodes.size(); ++k)
         {
-          const Vector      &here = mesh.nodes[line.nodes[k]];
+          const Vector3     &here = mesh.nodes[line.nodes[k]];
           std::ostringstream text;
           text << "the grid line from the node at " << place(start) << " (" << name_of(line.face) << ") ";
           for (unsigned int d = 0; d < 3; ++d)
@@ -198,13 +197,13 @@ namespace Voussoir
         }
       }
 
-      const HexMesh                  &mesh;
-      const unsigned int              n_layers;
-      const std::string              &source;
-      const FaceTable                 table;
-      const std::pair<Vector, Vector> box;
-      std::vector<unsigned int>       line_of; // index into lines, by boundary node
-      std::vector<GridLine>           lines;
+      const HexMesh                    &mesh;
+      const unsigned int                n_layers;
+      const std::string                &source;
+      const FaceTable                   table;
+      const std::pair<Vector3, Vector3> box;
+      std::vector<unsigned int>         line_of; // index into lines, by boundary node
+      std::vector<GridLine>             lines;
     };
   } // namespace
 

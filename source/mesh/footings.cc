@@ -11,12 +11,6 @@ namespace Voussoir
 {
   namespace
   {
-    Vector3 edge(const HexMesh &mesh, const unsigned int from, const unsigned int to)
-    {
-      const auto &a = mesh.nodes[from], &b = mesh.nodes[to];
-      return {{b[0] - a[0], b[1] - a[1], b[2] - a[2]}};
-    }
-
     /** Corners of a face of a base joint, counter-clockwise seen from the rock, and its cell. */
     struct BaseFace
     {
@@ -47,8 +41,8 @@ namespace Voussoir
       std::map<unsigned int, Vector3> normal; // not of unit length
       for (const BaseFace &face : faces)
       {
-        const Vector3 of_face =
-            cross(edge(mesh, face.nodes[0], face.nodes[2]), edge(mesh, face.nodes[1], face.nodes[3]));
+        const auto place = [&](const unsigned int v) -> const Vector3 & { return mesh.nodes[face.nodes[v]]; };
+        const Vector3 of_face = cross(place(2) - place(0), place(3) - place(1));
         for (const unsigned int node : face.nodes)
           add(normal[node], of_face);
       }
@@ -56,7 +50,7 @@ namespace Voussoir
       for (const auto &[node, n] : normal)
       {
         below[node] = mesh.nodes.size();
-        std::array<double, 3> place = mesh.nodes[node];
+        Vector3 place = mesh.nodes[node];
         for (unsigned int c = 0; c < 3; ++c)
           place[c] += thickness / norm(n) * n[c];
         mesh.nodes.push_back(place);
@@ -70,7 +64,8 @@ namespace Voussoir
       double shortest = 1e300;
       for (const BaseFace &face : faces)
         for (unsigned int v = 0; v < 4; ++v)
-          shortest = std::min(shortest, norm(edge(mesh, face.nodes[v], face.nodes[(v + 1) % 4])));
+          shortest = std::min(
+              shortest, distance_between(mesh.nodes[face.nodes[v]], mesh.nodes[face.nodes[(v + 1) % 4]]));
       return .005 * shortest;
     }
   } // namespace

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
@@ -13,24 +14,14 @@ namespace Voussoir
 {
   namespace
   {
-    using Vector = std::array<double, 3>;
-    using Matrix = std::array<Vector, 3>;
-
-    double determinant(const Matrix &m)
-    {
-      return m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) -
-             m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
-             m[0][2] * (m[1][0] * m[2][1] - m[1][1] * m[2][0]);
-    }
-
     /** Corners of the unit cube in the order of a cell's nodes. */
     constexpr double cube[8][3] = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0},
                                    {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
 
     /** Returns the determinant of the Jacobian of the trilinear map from the unit cube at @p xi [m^3]. */
-    double jacobian(const HexMesh &mesh, const HexMesh::Cell &cell, const Vector &xi)
+    double jacobian(const HexMesh &mesh, const HexMesh::Cell &cell, const Vector3 &xi)
     {
-      Matrix jacobian{};
+      Matrix3 jacobian{};
       for (unsigned int v = 0; v < 8; ++v)
         for (unsigned int a = 0; a < 3; ++a)
         {
@@ -38,7 +29,7 @@ namespace Voussoir
           for (unsigned int b = 0; b < 3; ++b)
             derivative *= a == b ? 2 * cube[v][b] - 1 : (cube[v][b] == 1 ? xi[b] : 1 - xi[b]);
           for (unsigned int c = 0; c < 3; ++c)
-            jacobian[c][a] += derivative * mesh.nodes[cell.nodes[v]][c];
+            jacobian[3 * c + a] += derivative * mesh.nodes[cell.nodes[v]][c];
         }
       return determinant(jacobian);
     }
@@ -333,7 +324,7 @@ namespace Voussoir
   std::pair<std::array<double, 3>, std::array<double, 3>> bounding_box(const HexMesh &mesh)
   {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Vector           lower = {infinity, infinity, infinity}, upper = {-infinity, -infinity, -infinity};
+    Vector3          lower = {infinity, infinity, infinity}, upper = {-infinity, -infinity, -infinity};
     for (const auto &node : mesh.nodes)
       for (unsigned int d = 0; d < 3; ++d)
       {
@@ -346,7 +337,7 @@ namespace Voussoir
   double crest_length(const HexMesh &mesh)
   {
     // Edges by position: the result is the same for doubled nodes at the joints.
-    std::map<int, std::set<std::pair<Vector, Vector>>> edges;
+    std::map<int, std::set<std::pair<Vector3, Vector3>>> edges;
     for (const auto &face : mesh.faces)
       if (face.surface == PhysicalId::crest || face.surface == PhysicalId::upstream ||
           face.surface == PhysicalId::downstream)

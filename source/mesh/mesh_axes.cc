@@ -11,15 +11,13 @@ namespace Voussoir
 {
   namespace
   {
-    using Vector = std::array<double, 3>;
-
     constexpr double lowest_dam = 5., highest_dam = 400.; ///< [m]
 
     /** Sum of the outward area vectors of a surface of the dam, and its area [m^2]. */
     struct Normals
     {
-      Vector sum{};
-      double area = 0.;
+      Vector3 sum{};
+      double  area = 0.;
     };
 
     /** @p surface: its physical id; the base includes base joints. */
@@ -38,11 +36,11 @@ namespace Voussoir
           continue;
         const auto &cell = mesh.cells[owner->cell].nodes;
         const auto &corner = hex_faces[owner->cell_face];
-        Vector      diagonal[2];
+        Vector3     diagonal[2];
         for (unsigned int d = 0; d < 3; ++d)
           for (unsigned int k = 0; k < 2; ++k)
             diagonal[k][d] = mesh.nodes[cell[corner[2 + k]]][d] - mesh.nodes[cell[corner[k]]][d];
-        Vector area = cross(diagonal[0], diagonal[1]);
+        Vector3 area = cross(diagonal[0], diagonal[1]);
         for (unsigned int d = 0; d < 3; ++d)
           result.sum[d] += area[d] *= .5;
         result.area += norm(area);
@@ -52,19 +50,19 @@ namespace Voussoir
 
     /** Returns true if the cosine of the angle between @p v and @p sign times the axis exceeds @p cosine. The
      * default corresponds to 63 degrees. */
-    bool along(const Vector &v, const unsigned int axis, const double sign, const double cosine = .45)
+    bool along(const Vector3 &v, const unsigned int axis, const double sign, const double cosine = .45)
     {
       return sign * v[axis] > cosine * norm(v);
     }
 
     /** Returns the unit vector of the axis nearest to @p v. */
-    Vector nearest_axis(const Vector &v)
+    Vector3 nearest_axis(const Vector3 &v)
     {
       const auto largest =
           std::max_element(v.begin(), v.end(),
                            [](const double a, const double b) { return std::abs(a) < std::abs(b); }) -
           v.begin();
-      Vector axis{};
+      Vector3 axis{};
       axis[largest] = v[largest] < 0. ? -1. : 1.;
       return axis;
     }
@@ -93,7 +91,7 @@ namespace Voussoir
           fail("the crest does not face up (z), but along " + direction(crest.sum) + ". " + how_to_turn());
         if (is_clear(stream))
         {
-          Vector horizontal = stream.sum;
+          Vector3 horizontal = stream.sum;
           horizontal[2] = 0.;
           if (norm(horizontal) < .45 * norm(stream.sum))
             fail("the normal of the downstream face points along " + direction(stream.sum) +
@@ -156,16 +154,16 @@ namespace Voussoir
         return normals.area > 0. && norm(normals.sum) > .1 * normals.area;
       }
 
-      static std::string direction(const Vector &v)
+      static std::string direction(const Vector3 &v)
       {
-        const Vector axis = nearest_axis(v);
+        const Vector3 axis = nearest_axis(v);
         for (unsigned int d = 0; d < 3; ++d)
           if (axis[d] != 0.)
             return std::string(axis[d] < 0. ? "-" : "") + "xyz"[d];
         return "";
       }
 
-      static std::string degrees_off_x(const Vector &v)
+      static std::string degrees_off_x(const Vector3 &v)
       {
         return std::to_string(std::lround(std::abs(std::atan2(v[1], v[0])) * 180. / M_PI));
       }
@@ -198,22 +196,22 @@ namespace Voussoir
       /** Returns the value of "Axes" for which the surfaces have the correct directions. */
       std::string turned_axes() const
       {
-        const Vector up = is_clear(crest) ? nearest_axis(crest.sum) : Vector{0., 0., 1.};
-        Vector       s = stream.sum;
+        const Vector3 up = is_clear(crest) ? nearest_axis(crest.sum) : Vector3{0., 0., 1.};
+        Vector3       s = stream.sum;
         for (unsigned int d = 0; d < 3; ++d)
           if (up[d] != 0.)
             s[d] = 0.;
-        const Vector downstream = norm(s) > 0. ? nearest_axis(s) : Vector{up[2], up[0], up[1]};
-        const auto   file = file_axes(parameters.axes);
+        const Vector3 downstream = norm(s) > 0. ? nearest_axis(s) : Vector3{up[2], up[0], up[1]};
+        const auto    file = file_axes(parameters.axes);
         // Vectors in the axes of the file, which are right-handed.
-        const auto in_file = [&](const Vector &v)
+        const auto in_file = [&](const Vector3 &v)
         {
-          Vector result{};
+          Vector3 result{};
           for (unsigned int d = 0; d < 3; ++d)
             result[file[d].coordinate] += v[d] * file[d].sign;
           return result;
         };
-        const Vector x = in_file(downstream), z = in_file(up);
+        const Vector3 x = in_file(downstream), z = in_file(up);
         return direction(x) + " " + direction(cross(z, x)) + " " + direction(z);
       }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <boost/iterator/counting_iterator.hpp>
+#include <boost/pending/disjoint_sets.hpp>
+
 #include <voussoir/base/error.h>
+#include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/coincident.h>
 #include <voussoir/mesh/mesh_joints.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <sstream>
 
@@ -14,43 +16,12 @@ namespace Voussoir
 {
   namespace
   {
-    using Vector = std::array<double, 3>;
-
     constexpr double coincidence = 1e-4; ///< relative to the shortest edge of the joint faces at the node
-
-    double distance(const Vector &a, const Vector &b)
-    {
-      return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
-    }
 
     [[noreturn]] void fail(const int joint, const std::string &text)
     {
       throw InputError("mesh: joint " + std::to_string(joint) + ": " + text);
     }
-
-    /** Sets of nodes to merge. The smallest number of a set identifies it. */
-    class UnionFind
-    {
-    public:
-      explicit UnionFind(const std::size_t size) : parent(size)
-      {
-        std::iota(parent.begin(), parent.end(), 0u);
-      }
-      unsigned int root(unsigned int i)
-      {
-        while (parent[i] != i)
-          i = parent[i] = parent[parent[i]];
-        return i;
-      }
-      void unite(const unsigned int i, const unsigned int j)
-      {
-        const unsigned int a = root(i), b = root(j);
-        parent[std::max(a, b)] = std::min(a, b);
-      }
-
-    private:
-      std::vector<unsigned int> parent;
-    };
 
     /** Nodes of one side of a joint, each with the shortest edge of the adjacent faces of the side [m]. */
     using Side = std::map<unsigned int, double>;
@@ -60,7 +31,7 @@ namespace Voussoir
       for (unsigned int v = 0; v < 4; ++v)
       {
         const unsigned int a = face.nodes[v], b = face.nodes[(v + 1) % 4];
-        const double       length = distance(mesh.nodes[a], mesh.nodes[b]);
+        const double       length = distance_between(mesh.nodes[a], mesh.nodes[b]);
         for (const unsigned int node : {a, b})
         {
           double &shortest = side.emplace(node, length).first->second;
@@ -69,13 +40,13 @@ namespace Voussoir
       }
     }
 
-    /** Unites every node of @p side with the coincident node of @p other. Throws InputError if
+    /** Appends every node of @p side with the coincident node of @p other to @p pairs. Throws InputError if
      * there is none. */
     void match(const HexMesh &mesh, const int joint, const int side_number, const Side &side,
-               const Side &other, UnionFind &merged)
+               const Side &other, NumberPairs &pairs)
     {
       std::vector<unsigned int> numbers;
-      std::vector<Vector>       points;
+      std::vector<Vector3>      points;
       for (const auto &candidate : other)
       {
         numbers.push_back(candidate.first);
@@ -84,12 +55,12 @@ namespace Voussoir
       const PointFinder finder(points);
       for (const auto &node : side)
       {
-        const Vector              &point = mesh.nodes[node.first];
+        const Vector3             &point = mesh.nodes[node.first];
         const double               tolerance = coincidence * node.second;
         const PointFinder::Nearest partner = finder.nearest(point);
         if (partner.distance <= tolerance)
         {
-          merged.unite(node.first, numbers[partner.number]);
+          pairs.emplace_back(node.first, numbers[partner.number]);
           continue;
         }
         std::ostringstream text;
@@ -117,7 +88,8 @@ namespace Voussoir
                                                 : std::make_pair(surface - PhysicalId::joint_side_1, 1);
     }
 
-    UnionFind match_sides(const HexMesh &mesh, const std::vector<HexMesh::Face> &doubled)
+    /** Returns the node that replaces each node. */
+    std::vector<unsigned int> match_sides(const HexMesh &mesh, const std::vector<HexMesh::Face> &doubled)
     {
       std::map<int, std::array<Side, 2>> joints;
       for (const auto &face : doubled)
@@ -125,7 +97,7 @@ namespace Voussoir
         const auto joint = joint_and_side(face.surface);
         add_face(mesh, face, joints[joint.first][joint.second - 1]);
       }
-      UnionFind merged(mesh.nodes.size());
+      NumberPairs pairs;
       for (const auto &joint : joints)
       {
         const auto &sides = joint.second;
@@ -137,10 +109,10 @@ namespace Voussoir
                      physical_name(2, (s == 0 ? PhysicalId::joint_side_1 : PhysicalId::joint_side_2) +
                                           joint.first) +
                      "'.");
-        match(mesh, joint.first, 1, sides[0], sides[1], merged);
-        match(mesh, joint.first, 2, sides[1], sides[0], merged);
+        match(mesh, joint.first, 1, sides[0], sides[1], pairs);
+        match(mesh, joint.first, 2, sides[1], sides[0], pairs);
       }
-      return merged;
+      return smallest_of_sets(mesh.nodes.size(), pairs);
     }
 
     /** Throws InputError unless all faces @p doubled, after merging, lie between two monoliths. */
@@ -264,7 +236,7 @@ namespace Voussoir
           return node;
         const auto copy = copies.emplace(std::make_pair(node, volume), mesh.nodes.size());
         if (copy.second)
-          mesh.nodes.push_back(Vector(mesh.nodes[node]));
+          mesh.nodes.push_back(Vector3(mesh.nodes[node]));
         return copy.first->second;
       }
 
@@ -304,19 +276,30 @@ namespace Voussoir
     return result;
   }
 
+  std::vector<unsigned int> smallest_of_sets(const unsigned int n, const NumberPairs &pairs)
+  {
+    boost::disjoint_sets_with_storage<> sets(n);
+    for (const auto &[i, j] : pairs)
+      sets.union_set(i, j);
+    const boost::counting_iterator<unsigned int> first(0), last(n);
+    sets.compress_sets(first, last);
+    sets.normalize_sets(first, last);
+    return std::vector<unsigned int>(sets.parents().begin(), sets.parents().end());
+  }
+
   HexMesh close_joints(const HexMesh &mesh)
   {
     HexMesh closed = mesh;
     restore_base_joints(closed);
-    auto doubled = doubled_faces(closed);
-    auto merged = match_sides(closed, doubled);
+    auto       doubled = doubled_faces(closed);
+    const auto merged = match_sides(closed, doubled);
     for (auto &cell : closed.cells)
       for (unsigned int &node : cell.nodes)
-        node = merged.root(node);
+        node = merged[node];
     for (auto *faces : {&closed.faces, &doubled})
       for (auto &face : *faces)
         for (unsigned int &node : face.nodes)
-          node = merged.root(node);
+          node = merged[node];
     check_closed(closed, doubled);
 
     closed.faces.erase(std::remove_if(closed.faces.begin(), closed.faces.end(),

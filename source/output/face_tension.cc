@@ -4,7 +4,6 @@
 #include <voussoir/solid/face_quads.h>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace Voussoir
@@ -88,25 +87,6 @@ namespace Voussoir
             !(largest ? x <= result.value : x >= result.value))
           result = extreme_at(model, at.node, x, time);
     return result;
-  }
-
-  double FaceTension::difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b,
-                                 const int surface) const
-  {
-    const auto face = faces.find(surface);
-    double     largest = 0., sum = 0., area = 0.;
-    if (face == faces.end())
-      return std::numeric_limits<double>::quiet_NaN();
-    for (const FaceNode &n : face->second)
-      largest = near_base[n.node] ? largest : std::max<double>(largest, a.maximum[n.node]);
-    for (const FaceNode &n : face->second)
-      if (!near_base[n.node] && a.maximum[n.node] >= .5 * largest)
-      {
-        const double apart = double(a.maximum[n.node]) - b.maximum[n.node];
-        sum += n.area * apart * apart;
-        area += n.area;
-      }
-    return area > 0. ? std::sqrt(sum / area) : 0.;
   }
 
   double FaceTension::headline(const EnvelopeRecorder &envelope) const

@@ -109,30 +109,17 @@ namespace Voussoir
   void SolidModel::merge(const std::vector<std::pair<unsigned int, unsigned int>> &pairs,
                          const bool                                                all_bodies)
   {
-    const auto root = [](const std::vector<unsigned int> &parent, unsigned int i)
-    {
-      while (parent[i] != i)
-        i = parent[i];
-      return i;
-    };
-    const auto unite = [&](std::vector<unsigned int> &parent, const unsigned int i, const unsigned int j)
-    {
-      const unsigned int a = root(parent, i), b = root(parent, j);
-      parent[std::max(a, b)] = std::min(a, b);
-    };
-    std::vector<unsigned int> joined(n_bodies());
-    std::iota(joined.begin(), joined.end(), 0);
-    for (const auto &[i, j] : pairs)
-    {
-      unite(master, i, j);
-      unite(joined, body[i], body[j]);
-    }
+    NumberPairs nodes = pairs, bodies;
     for (unsigned int i = 0; i < n_nodes(); ++i)
-      master[i] = root(master, i);
-    std::vector<int>          numbers;
-    std::vector<unsigned int> number(n_bodies(), 0);
+      nodes.emplace_back(i, master[i]);
+    for (const auto &[i, j] : pairs)
+      bodies.emplace_back(body[i], body[j]);
+    master = smallest_of_sets(n_nodes(), nodes);
+    const std::vector<unsigned int> joined = smallest_of_sets(n_bodies(), bodies);
+    std::vector<int>                numbers;
+    std::vector<unsigned int>       number(n_bodies(), 0);
     for (unsigned int b = 0; b < n_bodies(); ++b)
-      if (const unsigned int first = all_bodies ? 0 : root(joined, b); first == b)
+      if (const unsigned int first = all_bodies ? 0 : joined[b]; first == b)
       {
         number[b] = numbers.size();
         numbers.push_back(body_numbers[b]);

@@ -13,19 +13,18 @@ namespace Voussoir
   class RunObservers
   {
   public:
-    /** @p run: state after RunState::start(). Both arguments must outlive the observers. */
-    RunObservers(const RunState &run, Log &log);
+    /** @p run: state after RunState::start(). It must outlive the observers. */
+    explicit RunObservers(const RunState &run);
 
     auto begin() const { return list.begin(); }
     auto end() const { return list.end(); }
 
-    HistoryObserver                  history;
-    JointObserver                    joints;
-    StressObserver                   stresses;
-    std::optional<WaterObserver>     water;      ///< if the water is acoustic
-    std::optional<BlockObserver>     blocks;     ///< if the scene requests it
-    std::optional<WedgeObserver>     wedges;     ///< if the scene has rock wedges
-    std::optional<TimeErrorObserver> time_error; ///< if the scene requests it
+    HistoryObserver              history;
+    JointObserver                joints;
+    StressObserver               stresses;
+    std::optional<WaterObserver> water;  ///< if the water is acoustic
+    std::optional<BlockObserver> blocks; ///< if the scene requests it
+    std::optional<WedgeObserver> wedges; ///< if the scene has rock wedges
 
   private:
     StabilityObserver       stability;

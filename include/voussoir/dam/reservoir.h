@@ -48,10 +48,6 @@ namespace Voussoir
     void add_choices(ModelChoices &choices) const;
   };
 
-  /** Adds the hydrostatic pressure on the surface "upstream" to @p load [N]. @p gravity: [m/s^2]. */
-  void add_water_pressure(const SolidModel &model, const ReservoirParameters &reservoir, double gravity,
-                          Unknowns &load);
-
   /** Adds the added mass of the model to structure.mass and structure.added_mass.
    *
    * Westergaard: per area of the surface "upstream" it is 7/8 rho sqrt(H h) n n^T. h is the depth below the water

@@ -120,8 +120,7 @@ namespace Voussoir
     StaticParameters     statics;
     LoadParameters       loads;
     FoundationParameters foundation;
-    unsigned int         steps_per_sample = 1;   ///< time steps per sample of the ground motion
-    bool                 error_estimate = false; ///< estimate the time discretisation error
+    unsigned int         steps_per_sample = 1; ///< time steps per sample of the ground motion
     MotionParameters     motion;
     LimitParameters      limits;
     OutputParameters     output;

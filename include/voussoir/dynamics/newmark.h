@@ -97,7 +97,7 @@ namespace Voussoir
     std::unique_ptr<StepEquation> equation;
     Unknowns                      gap;
     Unknowns step_start, step_memory; ///< gaps [m] and history variables at the start of the last step
-    double   of_friction = 0.;        ///< JointSystem::friction_correction() of the last step [J]
+    double   of_friction = 0.;        ///< PairLaws::friction_correction() of the last step [J]
     std::vector<std::unique_ptr<Level>> levels;         ///< one per step size, created on demand
     unsigned int                        last_level = 0; ///< level of the last accepted step
   };

@@ -180,15 +180,6 @@ namespace Voussoir
      * they are relative to the ground (moves_base()). Newmark::advance() requires it for mass-proportional
      * damping. Must be called after Neighbour::advance(). */
     virtual Vector3 base_velocity() const { return {}; }
-
-    /** Returns a second support for the coarse-step comparison run (TimeErrorEstimate) with the time step dt
-     * [s], or nullptr if support() returns nullptr or cannot have a second time step. Must be called after
-     * add_stiffness(). The support must not outlive the foundation. */
-    virtual std::unique_ptr<Support> support_of_companion(const Structure & /*structure*/,
-                                                          double /*dt*/) const
-    {
-      return nullptr;
-    }
   };
 
   /** Upper bounds of the motion of a Neighbour, and the reference of its energies. */

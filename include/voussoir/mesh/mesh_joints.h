@@ -72,6 +72,11 @@ namespace Voussoir
    * Throws InputError for a node or a face without a partner on the other side, with joint and position. */
   HexMesh close_joints(const HexMesh &mesh);
 
+  using NumberPairs = std::vector<std::pair<unsigned int, unsigned int>>;
+
+  /** Returns for each of @p n numbers the smallest number of its set. The numbers of a pair are in one set. */
+  std::vector<unsigned int> smallest_of_sets(unsigned int n, const NumberPairs &pairs);
+
   /** Returns the joints of an opened mesh, in the order of their numbers. */
   std::vector<Joint> joints_of(const HexMesh &mesh);
 } // namespace Voussoir

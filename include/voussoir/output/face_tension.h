@@ -39,11 +39,6 @@ namespace Voussoir
     Extreme extreme_away_from_base(const FaceEnvelope &envelope, const SolidModel &model, int surface,
                                    unsigned int k, bool largest) const;
 
-    /** Returns the root mean square difference of the maxima of two envelopes on a face away from the base,
-     * weighted by area [Pa]. It includes the nodes where @p a is at least half of its maximum. It is 0 if
-     * there is no tension, and NaN if there is no such face. */
-    double difference(const EnvelopeRecorder &a, const EnvelopeRecorder &b, int surface) const;
-
     /** Returns the largest maximum principal stress on both faces away from the base, at least 0 [Pa]: the
      * tension in the progress lines. */
     double headline(const EnvelopeRecorder &envelope) const;

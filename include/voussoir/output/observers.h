@@ -11,7 +11,6 @@
 #include <voussoir/output/run_state.h>
 #include <voussoir/output/stability_monitor.h>
 #include <voussoir/output/table_columns.h>
-#include <voussoir/output/time_error.h>
 
 namespace Voussoir
 {
@@ -204,42 +203,6 @@ namespace Voussoir
   private:
     const RunState &run;
     TableFile       file;
-  };
-
-  /** Estimate of the error due to the time step, from a comparison run with twice the time step. If the
-   *  comparison run fails, the run continues without the estimate. */
-  class TimeErrorObserver : public Observer
-  {
-  public:
-    /** Starts the comparison run from the state of @p run. All arguments must outlive the observer.
-     * @param run run whose error is estimated
-     * @param joints joint results of the run
-     * @param stresses stress results of the run
-     * @param log receives a warning if the comparison run fails */
-    TimeErrorObserver(const RunState &run, const JointRecorder &joints, StressObserver &stresses, Log &log);
-    void follow() override;
-    void gather_on_root() override;
-    void report(Log &log) const override;
-    void save(boost::archive::binary_oarchive &archive) const override;
-    void load(boost::archive::binary_iarchive &archive) override;
-
-    /** Returns true if there is an estimate; false if the comparison run has failed or has no step. */
-    bool has_estimate() const { return coarse_run != nullptr && run.n_steps > 1; }
-
-    /** Returns the member "error_estimate" of summary.json. */
-    Json json() const;
-
-    /** Returns the memory consumption of the comparison run [bytes]. */
-    double memory_consumption() const;
-
-  private:
-    TimeError error() const { return coarse_run->of(joints, stresses.envelope, stresses.tension); }
-
-    const RunState                    &run;
-    const JointRecorder               &joints;
-    const StressObserver              &stresses;
-    Log                               &log;
-    std::unique_ptr<TimeErrorEstimate> coarse_run;
   };
 
   /** Fields on the mesh and on the joints for ParaView (solution-NNNNN.vtu, solution.pvd). */
