@@ -419,6 +419,9 @@ def refusals():
     """Base joints where they cannot be, joints that do not exist, laws that do not fit."""
     write_scene()
     refused(["scene.prm", *ARCH, *BASE, *settings("Foundation/Model=massless", "Dynamics/Impact=none")], "Base joints on massless rock", "mean-force")
+    refused(["scene.prm", *ARCH, *BASE, *settings("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
+                                                  "Dynamics/Steps per sample=5", "Dynamics/Impact=paper")],
+            "Joints cross", "joint 1, base 1, base 2", "mean-force")
     refused(["scene.prm", *ARCH, *BASE, *settings("Joints/Overrides=base 9: tied")], "base 9", "7 joints")
     refused(["scene.prm", *ARCH, *settings("Joints/Overrides=base: tied")], "\"base\"", "contraction")
     refused(["scene.prm", *ARCH, *BASE, *settings("Loads/Uplift/Joints=true", "Loads/Uplift/Base=true")], "Uplift/Joints", "Uplift/Base")

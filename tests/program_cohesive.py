@@ -101,6 +101,12 @@ def entries():
         soft = ["--set", "Concrete/Young's modulus=12 GPa"]
         expect(len(warned(*cohesive("1 MPa", 2 * share * energy), *soft)) == n, f"12 GPa, {share} of the energy")
     expect(warned(*cohesive("2 MPa", "150 N/m"), "--set", "Joints/Overrides=1: FJA, 2: FJA") == [], "no cohesive joint")
+    # Each kind of joint by its name, and joints by their numbers.
+    others = [x for entry in ("Mesh/Source=arch210", "Mesh/File=", "Mesh/Arch210/Joints=3", "Mesh/Arch210/Base joint=true", "Mesh/Arch210/Lift joints=1",
+                              "Joints/Strength=2 MPa", "Joints/Fracture energy=150") for x in ("--set", entry)]
+    for chosen, n in (("base: cohesive", 1), ("lift: cohesive", 1), ("contraction: cohesive", 1), ("base 2: cohesive", 1), ("3: cohesive", 1),
+                      ("lift 2.1: cohesive", 1), ("1: FJB", 0)):
+        expect(len(warned(*others, "--set", f"Joints/Overrides={chosen}")) == n, f"warnings with {chosen}")
 
 
 if __name__ == "__main__":

@@ -94,6 +94,17 @@ def rigid():
                                                    "Foundation/Sustained modulus=9e9"))
 
 
+def crossings():
+    """Contraction, lift and base joints that cross, with the preconditioner of their clusters."""
+    write_scene()
+    arguments = [*SHORT, *settings("Mesh/Arch210/Joints=5", "Mesh/Arch210/Elements along=12", "Mesh/Arch210/Lift joints=1")]
+    any_number("lift", (2,), *arguments)
+    arguments += settings("Mesh/Arch210/Base joint=true")
+    any_number("base", (2, 4), *arguments)
+    any_number("massless", (4,), *arguments, *settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true",
+                                                       "Mesh/Arch210/Rock/Element size=60"))
+
+
 def problems():
     """The joints' problems are written whole, as by one rank."""
     write_scene()
@@ -263,4 +274,4 @@ def errors():
 
 
 if __name__ == "__main__":
-    run_cases(rigid, rock, problems, checkpoint, oblique, quality, last_write, stopped, errors)
+    run_cases(rigid, crossings, rock, problems, checkpoint, oblique, quality, last_write, stopped, errors)

@@ -510,8 +510,17 @@
   void Dam::tie_base()
   {
     if (!structure.clusters.empty() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
-      throw InputError("Joints cross at " + place(structure.pairs[structure.clusters[0][0]].place) +
-                       ", which requires \"Dynamics/Impact\" = mean-force, not " + scene.impact_rule + ".");
+    {
+      std::set<unsigned int> crossing;
+      for (const unsigned int p : structure.clusters[0])
+        crossing.insert(structure.pairs[p].joint);
+      std::string names;
+      for (const unsigned int j : crossing)
+        names += (names.empty() ? "" : ", ") + joints[j].name();
+      throw InputError("Joints cross at " + place(structure.pairs[structure.clusters[0][0]].place) + " (" +
+                       names + "), which requires \"Dynamics/Impact\" = mean-force, not " +
+                       scene.impact_rule + ".");
+    }
     laws.of_crossings = laws_of_crossings(scene, structure, joint_models);
     laws.assign(structure);
     if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 namespace Voussoir
@@ -34,11 +35,13 @@ namespace Voussoir
     /** Returns the largest distance of neighbouring nodes on joints with a fracture energy [m]. */
     double distance_of_pairs(const HexMesh &opened, const Scene &scene)
     {
+      std::set<int> softening; // numbers of joints
+      for (const Joint &joint : joints_of(opened))
+        if (joint_law_reads(scene.joints.model_of(joint), "Joints/Fracture energy"))
+          softening.insert(joint.number);
       double longest = 0.;
       for (const HexMesh::Face &face : opened.faces)
-        if (face.surface > PhysicalId::joint_side_1 && face.surface < PhysicalId::joint_side_2 &&
-            joint_law_reads(scene.joints.model_of({face.surface - PhysicalId::joint_side_1, 1, 2}),
-                            "Joints/Fracture energy"))
+        if (is_joint_side(face.surface) && softening.count(number_of_joint(face.surface)) > 0)
           for (unsigned int v = 0; v < 4; ++v)
           {
             const auto &a = opened.nodes[face.nodes[v]], &b = opened.nodes[face.nodes[(v + 1) % 4]];

@@ -22,7 +22,7 @@ namespace Voussoir
 
   Crossings::Crossings(const InterfaceOperator &W) : W(W)
   {
-    if (W.clusters.empty() || !W.shares().are_trivial())
+    if (W.clusters.empty())
       return;
     std::vector<unsigned int> group; // of each pair
     for (unsigned int g = 0; g < W.n_groups(); ++g)
@@ -31,19 +31,12 @@ namespace Voussoir
     columns.resize(W.n_groups());
     for (const auto &pairs : W.clusters)
     {
-      Cluster cluster{pairs, {}, {}};
-      for (const unsigned int q : pairs)
+      clusters.push_back({pairs, {}, {}});
+      for (const unsigned int p : pairs)
         for (unsigned int c = 0; c < 3; ++c)
-        {
-          unknowns[group[q]].push_back(3 * q + c - W.begin(group[q]));
-          for (const unsigned int p : pairs)
-            for (unsigned int r = 0; r < 3; ++r)
-              cluster.W.push_back(
-                  W.find_block(std::min(group[p], group[q]), std::max(group[p], group[q]))
-                      ? entry(W, group[p], 3 * p + r - W.begin(group[p]), group[q], unknowns[group[q]].back())
-                      : 0.f);
-        }
-      clusters.push_back(std::move(cluster));
+          unknowns[group[p]].push_back(3 * p + c - W.begin(group[p]));
+      for (const unsigned int p : pairs)
+        add_rows(p, group, clusters.back());
     }
     for (auto &list : unknowns)
       std::sort(list.begin(), list.end());
@@ -55,9 +48,28 @@ namespace Voussoir
     }
   }
 
+  /** Adds the three rows of pair @p p to the block of W of its cluster. The owner of the rows sends them to the other
+   * processes. @p group: of each pair. */
+  void Crossings::add_rows(const unsigned int p, const std::vector<unsigned int> &group,
+                           Cluster &cluster) const
+  {
+    const unsigned int g = group[p], first = 3 * p - W.begin(g);
+    const std::size_t  begin = cluster.W.size();
+    for (unsigned int r = 0; r < 3; ++r)
+      for (const unsigned int q : cluster.pairs)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          const unsigned int k = group[q];
+          const bool         is_coupled = W.is_mine(g) && W.find_block(std::min(g, k), std::max(g, k));
+          cluster.W.push_back(is_coupled ? entry(W, g, first + r, k, 3 * q + c - W.begin(k)) : 0.f);
+        }
+    if (!W.shares().are_trivial())
+      Ranks::broadcast(cluster.W.data() + begin, cluster.W.size() - begin, W.shares().owner(g));
+  }
+
   void Crossings::copy_columns(const unsigned int to, const unsigned int from)
   {
-    if (unknowns[from].empty() || W.size(to) == 0)
+    if (unknowns[from].empty() || W.size(to) == 0 || !W.is_mine(to))
       return;
     Columns copy{from, {}};
     for (const unsigned int j : unknowns[from])
@@ -81,9 +93,9 @@ namespace Voussoir
             {
               const PairEquations &e = equations[cluster.pairs[i / 3]];
               const double        *g = e.d_gap.data() + 3 * (i % 3);
-              const float         *w = cluster.W.data() + j * n + i - i % 3;
+              const float         *w = cluster.W.data() + (i - i % 3) * n + j;
               const double         own = i / 3 == j / 3 ? e.d_force[3 * (i % 3) + j % 3] : 0.;
-              lu[j * n + i] = static_cast<float>(own + g[0] * w[0] + g[1] * w[1] + g[2] * w[2]);
+              lu[j * n + i] = static_cast<float>(own + g[0] * w[0] + g[1] * w[n] + g[2] * w[2 * n]);
             }
           int info = 0;
           sgetrf_(&n, &n, lu.data(), &n, pivots.data(), &info);
@@ -139,5 +151,6 @@ namespace Voussoir
                                  Wz.data() + W.begin(g), &stride);
                         }
                       });
+    W.gather(Wz);
   }
 } // namespace Voussoir

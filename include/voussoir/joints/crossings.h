@@ -10,7 +10,8 @@ namespace Voussoir
    * strongly as a pair with itself, also between joints. One iteration of the block Jacobi method over the clusters of
    * such pairs corrects the result of the Gauss-Seidel iteration over the joints.
    *
-   * Single precision. Without clusters, and with several processes, the stage is empty. */
+   * Single precision. Each process has the blocks of all clusters, and the columns for the rows of its groups. Without
+   * clusters the stage is empty. */
   class Crossings
   {
   public:
@@ -31,7 +32,8 @@ namespace Voussoir
     struct Cluster
     {
       std::vector<unsigned int> pairs;
-      std::vector<float>        W, inverse; ///< of its block of J; by column
+      std::vector<float>        W;       ///< block of the cluster, by row
+      std::vector<float>        inverse; ///< of the block in J, by column
       int                       n() const { return 3 * static_cast<int>(pairs.size()); }
     };
     /** Columns of W between two groups that belong to clusters. */
@@ -40,6 +42,7 @@ namespace Voussoir
       unsigned int       from;
       std::vector<float> value; ///< by column
     };
+    void add_rows(unsigned int p, const std::vector<unsigned int> &group, Cluster &cluster) const;
     void copy_columns(unsigned int to, unsigned int from);
 
     const InterfaceOperator &W;
