@@ -3,6 +3,7 @@
 #include <voussoir/app/run_report.h>
 #include <voussoir/base/python_script.h>
 #include <voussoir/dam/rock_wedge.h>
+#include <voussoir/dam/static_path.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/output/figures.h>
@@ -101,6 +102,9 @@ namespace Voussoir
         log.line("warning: %s", dam.ungrouped.c_str());
       for (const std::string &warning : dam.mesh_warnings)
         log.line("warning: %s", warning.c_str());
+      if (!scene.statics.stages.empty())
+        for (const std::string &warning : StaticPath(dam).warnings())
+          log.line("warning: %s", warning.c_str());
       for (const std::string &warning : scene.warnings)
         log.line("warning: %s", warning.c_str());
     }

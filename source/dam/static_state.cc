@@ -16,16 +16,96 @@ namespace Voussoir
 {
   namespace
   {
+    constexpr double path_tolerance =
+        5e-3; // change of the displacements by halved increments, of the largest one
+    constexpr unsigned int most_increments = 64; // of a stage
+
     constexpr double stiffest =
         4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
+
+    /** Returns true if dam and rock are solved in turn, with base joints between them. */
+    bool alternates_with_rock(const Dam &dam)
+    {
+      return dam.has_base_joints() && dam.scene.foundation.model == "rock";
+    }
 
     /** Returns the parameters of the contact solver in the static state. The forces of base joints determine the
      * displacements of rock with mass, and their errors those of the iterations between dam and rock. */
     ContactParameters in_statics(const Dam &dam, ContactParameters parameters)
     {
-      if (dam.has_base_joints() && dam.scene.foundation.model == "rock")
+      if (alternates_with_rock(dam))
         parameters.tolerance *= .01;
       return parameters;
+    }
+
+    double norm_1(const Unknowns &x)
+    {
+      double sum = 0.;
+      for (const double value : x)
+        sum += std::abs(value);
+      return sum;
+    }
+
+    /** Returns the largest length of a nodal vector of u - v. An empty v is zero. */
+    double largest_difference(const Unknowns &u, const Unknowns &v)
+    {
+      double largest = 0.;
+      for (std::size_t i = 0; i < u.size() / 3; ++i)
+        largest = std::max(largest, norm(v.empty() ? get(u, i) : get(u, i) - get(v, i)));
+      return largest;
+    }
+
+    /** Returns the bodies whose sum of forces is at least a tenth of the largest one. */
+    std::vector<const Body *> moving_bodies(const Structure &structure, const Unknowns &force)
+    {
+      std::vector<double> sums;
+      for (const Body &body : structure.bodies)
+      {
+        const auto begin = force.begin() + 3 * std::size_t(body.first_node);
+        sums.push_back(norm_1({begin, begin + 3 * std::size_t(body.n_nodes())}));
+      }
+      const double              largest = *std::max_element(sums.begin(), sums.end());
+      std::vector<const Body *> result;
+      for (std::size_t b = 0; b < sums.size(); ++b)
+        if (sums[b] >= .1 * largest)
+          result.push_back(&structure.bodies[b]);
+      return result;
+    }
+
+    std::string names_of(const std::vector<const Body *> &bodies)
+    {
+      std::string names;
+      for (const Body *body : bodies)
+        names += (names.empty() ? "" : ", ") + body->name();
+      return names;
+    }
+
+    /** Returns a sentence about the slopes of the base joints of bodies, if they exceed the angle of friction. */
+    std::string slopes_of_base(const Dam &dam, const std::vector<const Body *> &bodies)
+    {
+      constexpr double degree = 180. / 3.14159265358979;
+      const double     holds = degree * std::atan(dam.scene.joints.law(dam.scene.concrete.young).friction);
+      double           steepest = 0., flattest = 90.;
+      for (const Body *body : bodies)
+      {
+        Vector3 normal{};
+        for (const Pair &pair : dam.structure.pairs)
+          if (dam.joints[pair.joint].is_base() && pair.node_2 >= body->first_node &&
+              pair.node_2 < body->first_node + body->n_nodes())
+            for (unsigned int c = 0; c < 3; ++c)
+              normal[c] += pair.area * pair.frame[0][c];
+        if (norm(normal) == 0.) // no base joint
+          continue;
+        const double slope = degree * std::acos(normal[2] / norm(normal));
+        steepest = std::max(steepest, slope);
+        flattest = std::min(flattest, slope);
+      }
+      std::ostringstream text;
+      text.precision(3);
+      if (steepest > holds)
+        text << " The base of these monoliths slopes by " << flattest << " to " << steepest
+             << " degrees; the angle of friction is " << holds << " degrees.";
+      return text.str();
     }
 
     /** Computes the steps of the static load history. */
@@ -34,7 +114,8 @@ namespace Voussoir
     public:
       StaticHistory(Dam &dam, const ContactParameters &parameters, Log &log,
                     const std::function<void()> &stop_if_asked)
-          : dam(dam), parameters(in_statics(dam, parameters)), log(log), stop_if_asked(stop_if_asked),
+          : dam(dam), alternates(alternates_with_rock(dam)), parameters(in_statics(dam, parameters)),
+            log(log), stop_if_asked(stop_if_asked),
             sustained(dam.has_sustained_moduli() ? dam.sustained_structure() : Structure()),
             structure(dam.has_sustained_moduli() ? sustained : dam.structure),
             springs(dam.foundation->static_springs(structure)), base(dam.foundation->static_base(structure)),
@@ -60,19 +141,24 @@ namespace Voussoir
 
       StaticState solve()
       {
-        for (unsigned int i = 0; i < path.n_steps(); ++i)
+        for (; stage < path.n_parts(); ++stage)
         {
-          stop_if_asked();
-          if (i == 0 || path.part(i).grouted > path.grouted_before(i))
-            grout(i);
-          for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
-            widen(p, path.cut_width(i, dam.structure.pairs[p].joint));
-          state.contact += solve_step(i);
-          record(i);
+          if (stage == 0 || path.part(stage).grouted > path.grouted_before(stage))
+            grout();
+          if (path.depends_on_increments() && !path.is_weight_alone(stage))
+            refine();
+          else if (advance(path.increments(stage)))
+          {
+            report();
+            if (path.is_weight_alone(stage))
+              judge_weight();
+          }
+          else
+            throw_failure();
         }
+        --stage;
         if (water)
-          state.joint_water =
-              water->pressures([&](const double z) { return water_pressure(path.n_steps() - 1, z); });
+          state.joint_water = water->pressures([&](const double z) { return water_pressure(1., z); });
         state.pairs = system->states();
         state.n_open = n_of(PairState::open);
         if (dam.has_sustained_moduli())
@@ -81,9 +167,78 @@ namespace Voussoir
       }
 
     private:
-      double water_pressure(const unsigned int i, const double z) const
+      /** Values that a repeated stage starts from. */
+      struct Snapshot
       {
-        return dam.scene.loads.factor("uplift") * path.water_pressure(i, z);
+        StaticState                 state;
+        Unknowns                    gap;
+        std::unique_ptr<JointWater> water;
+      };
+
+      std::unique_ptr<JointWater> copy_of(const std::unique_ptr<JointWater> &w) const
+      {
+        return w ? std::make_unique<JointWater>(*w) : nullptr;
+      }
+
+      /** Solves a stage in @p n equal increments. Returns false, with the reason in #failure, if one fails. */
+      bool advance(const unsigned int n)
+      {
+        for (unsigned int i = 0; i < n; ++i)
+        {
+          stop_if_asked();
+          for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
+            widen(p, path.cut_width(stage, dam.structure.pairs[p].joint) / n);
+          const ContactResult result = solve_step(i, n);
+          if (!result.converged)
+          {
+            state.contact.add_work(result);
+            return false;
+          }
+          state.contact += result;
+          record(double(i + 1) / n);
+        }
+        return true;
+      }
+
+      /** Solves a stage with increments that are halved until the displacements at its end change by less than a
+       * tolerance. The state is that of the finer increments. */
+      void refine()
+      {
+        const Snapshot start{state, gap, copy_of(water)};
+        Unknowns       coarse; // displacements with half of the increments, or empty
+        for (unsigned int n = path.increments(stage);; n *= 2)
+        {
+          const ContactResult work = state.contact;
+          state = start.state;
+          state.contact = work;
+          gap = start.gap;
+          water = copy_of(start.water);
+          const bool converged = advance(n), is_last = 2 * n > most_increments;
+          if (!converged && is_last)
+            throw_failure();
+          const double change = converged && !coarse.empty() ? largest_difference(state.u, coarse) : INFINITY,
+                       limit = path_tolerance * largest_difference(state.u, {});
+          coarse = converged ? state.u : Unknowns();
+          if (change > limit && !(converged && is_last))
+            continue;
+          std::ostringstream text;
+          text.precision(2);
+          text << n << " increments: with " << n / 2 << " the displacements differ by " << 1e3 * change
+               << " mm (limit " << 1e3 * limit << " mm)";
+          report("; " + text.str());
+          if (change > limit)
+            log.line(
+                "warning: stage \"%s\" of the static state depends on the load increments. After %s. Divide the "
+                "stage into smaller ones (Statics/Stages), or check the friction of base and lift joints "
+                "(Joints/Friction).",
+                path.part(stage).name.c_str(), text.str().c_str());
+          return;
+        }
+      }
+
+      double water_pressure(const double share, const double z) const
+      {
+        return dam.scene.loads.factor("uplift") * path.water_pressure(stage, share, z);
       }
 
       unsigned int n_of(const PairState wanted) const
@@ -111,18 +266,18 @@ namespace Voussoir
         dam.laws.lose_bond(p, state.memory);
       }
 
-      /** Grouts the pairs of a step: their gap is zero in the current state. The grout that sets carries the force of
+      /** Grouts the pairs before a stage: their gap is zero in the current state. The grout that sets carries the force of
        * the contact and of the fluid grout. */
-      void grout(const unsigned int i)
+      void grout()
       {
-        grouted = path.part(i).grouted;
+        grouted = path.part(stage).grouted;
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
         {
           const Pair &pair = dam.structure.pairs[p];
-          if (pair.place[2] <= path.grouted_before(i) || pair.place[2] > grouted || dam.is_cast(pair))
+          if (pair.place[2] <= path.grouted_before(stage) || pair.place[2] > grouted || dam.is_cast(pair))
             continue;
-          if (i > 0)
-            state.force[3 * p] += path.grout_pressure(i - 1, p) * pair.area;
+          if (stage > 0)
+            state.force[3 * p] += path.grout_pressure(stage - 1, 1., p) * pair.area;
           Vector3 now{};
           if (const ElasticLaw *law = dam.laws.of_pair[p]->elastic_law())
             now[0] = -law->compliance(pair.area)[0] * state.force[3 * p];
@@ -143,16 +298,33 @@ namespace Voussoir
                                                operation, springs, base.get());
       }
 
+      /** Returns the change of the load since the last call, relative to the load, if dam and rock are solved in turn;
+       * otherwise 0 [-]. */
+      double change_of_load(const Unknowns &load)
+      {
+        if (!alternates)
+          return 0.;
+        Unknowns change = load;
+        for (std::size_t k = 0; k < last_load.size(); ++k)
+          change[k] -= last_load[k];
+        last_load = load;
+        return norm_1(change) / std::max(norm_1(load), 1e-300);
+      }
+
       /** Solves with the load f, and with base joints by iterations: (K + eps M) u = f + eps M u_k, where u_k is the
        * displacement of the previous iteration. They end when the force eps M (u - u_k) is negligible, or no longer
-       * falls. If it falls slowly, eps is reduced. */
+       * falls. If it falls slowly, eps is reduced. While the rock still changes f, a force that is small relative to
+       * this change is negligible, and the tolerance of the joints follows the change. */
       ContactResult iterate(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
                             const Unknowns &committed)
       {
         constexpr unsigned int most = 100;                         // rounds
         constexpr double       negligible = 1e-11, allowed = 1e-7; // of the sum of all nodal loads
+        const double           change = change_of_load(load), sufficient = std::max(negligible, .1 * change);
         ContactResult          total;
         double                 before = INFINITY;
+        if (alternates)
+          system->set_tolerance(std::max(parameters.tolerance, std::min(1e-6, 1e-3 * change)));
         for (unsigned int k = 0;; ++k)
         {
           stop_if_asked();
@@ -173,7 +345,7 @@ namespace Voussoir
             moved[k] -= last[k];
           add_proximal(moved, held);
           const double sum = norm_1(held), of_load = norm_1(load);
-          if (sum <= negligible * of_load || (sum > .5 * before && sum <= allowed * of_load))
+          if (sum <= sufficient * of_load || (sum > .5 * before && sum <= allowed * of_load))
             return total;
           const bool is_slow = sum > .5 * before && k > 2;
           if (is_slow && proximal > 1.5 * least_proximal)
@@ -182,29 +354,71 @@ namespace Voussoir
             make_system();
           }
           else if ((is_slow && sum > .9 * before) || k == most)
-            throw_no_equilibrium(held);
+          {
+            failure = without_equilibrium(held);
+            total.converged = false;
+            return total;
+          }
           before = sum;
         }
       }
 
-      [[noreturn]] void throw_no_equilibrium(const Unknowns &force) const
+      /** Throws InputError, or prints a warning, if the weight alone moves blocks far along their base. */
+      void judge_weight() const
       {
-        const Body &body = fastest_body(force);
-        throw ComputationError(
-            "The static state has no equilibrium: " + body.name() + " moves without limit on its joints" +
-            (grouted < INFINITY
-                 ? ", in a stage before all joints are grouted. Grout the joints before this stage"
-                 : std::string(". Check the friction (\"Joints/Friction\"), the water level and the "
-                               "uplift")) +
-            ", or bond its base or lift joints (\"Joints/Overrides\" = base: tied, lift: tied).");
+        constexpr double          most = 1e-3, warn = 1e-4; // of the size of the dam
+        double                    largest = 0.;
+        std::vector<double>       of_body(structure.bodies.size(), 0.);
+        std::vector<const Body *> moving;
+        for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+          if (const Pair &pair = structure.pairs[p]; dam.joints[pair.joint].is_base())
+          {
+            double &moved = of_body[structure.body_of(pair.node_2)];
+            moved = std::max(moved, norm(structure.jump(pair, state.u)));
+            largest = std::max(largest, moved);
+          }
+        if (largest < warn * dam.size)
+          return;
+        for (std::size_t b = 0; b < of_body.size(); ++b)
+          if (of_body[b] >= .1 * largest)
+            moving.push_back(&structure.bodies[b]);
+        std::ostringstream text;
+        text.precision(3);
+        text << names_of(moving) << (moving.size() == 1 ? " moves" : " move") << " by up to " << largest
+             << " m along the base" << under_weight(moving);
+        if (largest > most * dam.size)
+          throw InputError("The static state is impossible: " + text.str());
+        log.line("warning: %s", text.str().c_str());
       }
 
-      static double norm_1(const Unknowns &x)
+      /** Returns the end of a message about blocks that slide under the weight alone: the reason, and what to do. */
+      std::string under_weight(const std::vector<const Body *> &moving) const
       {
-        double sum = 0.;
-        for (const double value : x)
-          sum += std::abs(value);
-        return sum;
+        return " under the weight alone, " +
+               std::string(grouted == -INFINITY ? "free-standing"
+                                                : "with the joints that are grouted before the first load") +
+               "." + slopes_of_base(dam, moving) +
+               " Begin \"Statics/Stages\" with grout up to the height of these monoliths, or remove the lifts and set "
+               "\"Statics/Self-weight\" = monolithic (the weight of the finished dam), or check the friction "
+               "(\"Joints/Friction\"), or bond the base or lift joints (\"Joints/Overrides\" = base: tied, lift: "
+               "tied).";
+      }
+
+      /** Returns the message for the forces that hold the moving blocks. */
+      std::string without_equilibrium(const Unknowns &force) const
+      {
+        const std::vector<const Body *> moving = moving_bodies(structure, force);
+        const std::string               text = "The static state has no equilibrium: " + names_of(moving) +
+                                 (moving.size() == 1 ? " moves" : " move") + " without limit on the joints";
+        if (path.is_weight_alone(stage))
+          return text + under_weight(moving);
+        return text +
+               (grouted < INFINITY
+                    ? ", in stage \"" + path.part(stage).name +
+                          "\", before all joints are grouted. Grout the joints before this stage"
+                    : std::string(". Check the friction (\"Joints/Friction\"), the water level and the "
+                                  "uplift")) +
+               ", or bond the base or lift joints (\"Joints/Overrides\" = base: tied, lift: tied).";
       }
 
       /** Adds eps M u to @p load. */
@@ -218,26 +432,10 @@ namespace Voussoir
         }
       }
 
-      /** Returns the body with the largest sum of forces. */
-      const Body &fastest_body(const Unknowns &force) const
+      /** Solves increment @p i of @p n of a stage, repeatedly until water spreads to no further pair. */
+      ContactResult solve_step(const unsigned int i, const unsigned int n)
       {
-        double      largest = -1.;
-        const Body *fastest = nullptr;
-        for (const Body &body : structure.bodies)
-        {
-          double sum = 0.;
-          for (std::size_t k = 3 * std::size_t(body.first_node);
-               k < 3 * std::size_t(body.first_node + body.n_nodes()); ++k)
-            sum += std::abs(force[k]);
-          if (sum > largest)
-            largest = sum, fastest = &body;
-        }
-        return *fastest;
-      }
-
-      /** Solves a step, repeatedly until water spreads to no further pair. */
-      ContactResult solve_step(const unsigned int i)
-      {
+        const double   share = double(i + 1) / n;
         const Unknowns start = gap; // slip is relative to the previous step
         Unknowns       offset = state.closed;
         for (double &x : offset)
@@ -245,46 +443,60 @@ namespace Voussoir
         const Unknowns committed = state.memory;
         const auto     solve = [&](const Unknowns &load) { return iterate(load, offset, start, committed); };
         const auto     pressure = [&](const double z) // no pressure in joints before grouting
-        { return z > path.part(i).grouted ? 0. : water_pressure(i, z); };
+        { return z > path.part(stage).grouted ? 0. : water_pressure(share, z); };
         ContactResult total;
         total.converged = true;
+        failure.clear();
         do
         {
-          state.load = path.load(i);
+          state.load = path.load(stage, share);
           if (water)
             water->add_forces(pressure, state.load);
           const ContactResult result = dam.foundation->solve_static(solve, springs, state.u, state.load, log);
           total += result;
           if (!result.converged)
           {
-            std::ostringstream message;
-            const std::size_t  n = path.n_steps() / path.n_parts(); // steps of a stage
-            message << "The static state did not converge in ";
-            if (path.n_parts() > 1)
-              message << "stage \"" << path.part(i).name << "\", ";
-            message << "step " << i % n + 1 << " of " << n << "." << largest_error(dam.structure, result)
-                    << " The residual is " << result.residual << " of the joint forces and "
-                    << result.residual_over_load << " of the load (limit " << parameters.tolerance
-                    << ", from \"Contact/Tolerance\"), after " << result.iterations
-                    << " Newton steps. Increase \"Statics/Water increments\" or \"Contact/Maximum "
-                       "iterations\".";
-            throw ComputationError(message.str());
+            if (failure.empty())
+              failure = not_converged(i, n, result);
+            return total;
           }
         } while (water && water->spread(system->states(), pressure));
         system->commit(start, state.force, gap, state.memory);
         return total;
       }
 
-      /** Adds a row to the steps, and a line to the log at the end of each stage. */
-      void record(const unsigned int i)
+      std::string not_converged(const unsigned int i, const unsigned int n, const ContactResult &result) const
       {
-        const StaticPart  &part = path.part(i);
+        std::ostringstream message;
+        message << "The static state did not converge in ";
+        if (path.n_parts() > 1)
+          message << "stage \"" << path.part(stage).name << "\", ";
+        message << "step " << i + 1 << " of " << n << "." << largest_error(dam.structure, result)
+                << " The residual is " << result.residual << " of the joint forces and "
+                << result.residual_over_load << " of the load (limit " << parameters.tolerance
+                << ", from \"Contact/Tolerance\"), after " << result.iterations
+                << " Newton steps. Increase \"Statics/Water increments\" or \"Contact/Maximum "
+                   "iterations\".";
+        return message.str();
+      }
+
+      [[noreturn]] void throw_failure() const
+      {
+        if (path.is_weight_alone(stage))
+          throw InputError(failure);
+        throw ComputationError(failure);
+      }
+
+      /** Adds a row to the steps, at a share of a stage. */
+      void record(const double share)
+      {
+        const StaticPart  &part = path.part(stage);
         const unsigned int crown = dam.model->equation[dam.geometry->crown];
         if (crown != rigid_ground)
           state.crown = Vector3{{state.u[3 * crown], state.u[3 * crown + 1], state.u[3 * crown + 2]}} -
                         dam.base_motion(state.u);
-        StaticStep step{path.number(i),
-                        path.share(i),
+        StaticStep step{path.number(stage),
+                        share,
                         part.level,
                         state.crown,
                         n_of(PairState::open),
@@ -294,13 +506,21 @@ namespace Voussoir
           if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted || dam.is_cast(pair))
             step.opening = std::max(step.opening, gap[3 * p]);
         state.steps.push_back(step);
-        if (path.ends_part(i) && (path.n_parts() > 1 || step.n_wet > 0))
+      }
+
+      /** Writes a line about the end of a stage to the log. @p increments: text about them, or empty. */
+      void report(const std::string &increments = "") const
+      {
+        const StaticStep &step = state.steps.back();
+        if (path.n_parts() > 1 || step.n_wet > 0)
           log.line("Stage     %s: crest %.1f mm downstream, %u pairs open, %u pairs under water pressure, "
-                   "largest opening %.2f mm",
-                   part.name.c_str(), 1e3 * state.crown[0], step.n_open, step.n_wet, 1e3 * step.opening);
+                   "largest opening %.2f mm%s",
+                   path.part(stage).name.c_str(), 1e3 * state.crown[0], step.n_open, step.n_wet,
+                   1e3 * step.opening, increments.c_str());
       }
 
       const Dam                   &dam;
+      const bool                   alternates; ///< see alternates_with_rock()
       const ContactParameters      parameters;
       Log                         &log;
       const std::function<void()> &stop_if_asked;
@@ -318,7 +538,10 @@ namespace Voussoir
       JointLaws                    ungrouted; ///< contact without friction
       std::unique_ptr<JointWater>  water;
       std::unique_ptr<JointSystem> system;
-      Unknowns                     gap; ///< of the pairs, 3 each [m]
+      std::size_t                  stage = 0; ///< present one
+      Unknowns                     last_load; ///< of iterate() [N]
+      std::string                  failure;   ///< of the last step; empty: none
+      Unknowns                     gap;       ///< of the pairs, 3 each [m]
       StaticState                  state;
     };
 

@@ -21,60 +21,71 @@ namespace Voussoir
     double                   width = 0.; ///< of the cut [m]
   };
 
-  /** Static load history: the stages of "Statics/Stages", then the final water level and temperature. Each
-   * stage has "Statics/Water increments" steps. */
+  /** Static load history: the stages of "Statics/Stages", then the final water level and temperature. If base or lift
+   * joints with friction make the state depend on the path, a stage with the weight alone comes first. Stages are
+   * counted from 0. The share of a stage is that of its loads, up to 1. */
   class StaticPath
   {
   public:
-    /** Creates the stages. Throws InputError for levels above the dam, days outside of the temperature table,
+    /** Creates the stages. Throws InputError for levels outside of the dam, days outside of the temperature table,
      * and stages without effect. */
     explicit StaticPath(const Dam &dam);
-
-    /** Returns the number of steps. Steps are counted from 0. */
-    unsigned int n_steps() const { return increments * parts.size(); }
 
     /** Returns the number of stages. */
     std::size_t n_parts() const { return parts.size(); }
 
-    /** Returns the height up to which the joints are grouted before a step [m]. */
-    double grouted_before(unsigned int step) const;
+    /** Returns a stage. */
+    const StaticPart &part(const std::size_t stage) const { return parts[stage]; }
 
-    /** Returns the number of the stage of a step, from 1. */
-    unsigned int number(const unsigned int step) const { return step / increments + 1; }
+    /** Returns true if the state depends on the increments: with stages and friction in base or lift joints. */
+    bool depends_on_increments() const { return is_dependent; }
 
-    /** Returns the stage of a step. */
-    const StaticPart &part(const unsigned int step) const { return parts[step / increments]; }
+    /** Returns true if a stage has the weight alone. */
+    bool is_weight_alone(const std::size_t stage) const { return is_dependent && stage == 0; }
 
-    /** Returns the share of the stage that is reached at the end of a step, up to 1 [-]. */
-    double share(const unsigned int step) const;
+    /** Returns the number of a stage in stages.csv: from 1, or 0 for the weight alone. */
+    unsigned int number(const std::size_t stage) const { return stage + 1 - is_dependent; }
 
-    /** Returns true if a step is the last one of its stage. */
-    bool ends_part(const unsigned int step) const { return step % increments + 1 == increments; }
+    /** Returns the (smallest) number of increments of a stage. */
+    unsigned int increments(const std::size_t stage) const
+    {
+      return is_weight_alone(stage) ? 1 : dam.scene.statics.water_increments;
+    }
 
-    /** Returns the sum of all static loads at the end of a step, three values per node [N]. */
-    Unknowns load(unsigned int step) const;
+    /** Returns the height up to which the joints are grouted before a stage [m]. */
+    double grouted_before(std::size_t stage) const;
 
-    /** Returns the pressure of the reservoir at the height @p z at the end of a step [Pa]. */
-    double water_pressure(unsigned int step, double z) const;
+    /** Returns the sum of all static loads, three values per node [N]. */
+    Unknowns load(std::size_t stage, double share) const;
 
-    /** Returns the pressure of the fluid grout in a pair at the end of a step [Pa]. */
-    double grout_pressure(unsigned int step, std::size_t pair) const;
+    /** Returns the pressure of the reservoir at the height @p z [Pa]. */
+    double water_pressure(std::size_t stage, double share, double z) const;
 
-    /** Returns the width that a step cuts from a joint of Dam::joints [m]. */
-    double cut_width(unsigned int step, std::size_t joint) const;
+    /** Returns the pressure of the fluid grout in a pair [Pa]. */
+    double grout_pressure(std::size_t stage, double share, std::size_t pair) const;
+
+    /** Returns the width that a stage cuts from a joint of Dam::joints [m]. */
+    double cut_width(std::size_t stage, std::size_t joint) const;
+
+    /** Returns warnings about stages that are outside of the dam. */
+    std::vector<std::string> warnings() const { return warned; }
 
   private:
     void        add_stages();
+    void        check_stages(const std::vector<StaticStage> &stages, bool has_lifts) const;
     StaticPart &add_part(const std::string &name, const Scene &at, double grouted);
+    StaticPart &add_empty_part(const std::string &name, double level, double grouted);
 
     void add_grout(const StaticStage &stage, const Scene &at, double grouted);
     void add_cut(const StaticStage &stage, const Scene &at, double grouted);
-    void check_level(double level) const;
+    void check_fill(double level) const;
+    void check_grout(double height);
 
-    const Dam              &dam;
-    const unsigned int      increments;
-    std::vector<StaticPart> parts;
-    double                  grouted_at_start = 0.; ///< [m]
+    const Dam               &dam;
+    const bool               is_dependent;
+    std::vector<StaticPart>  parts;
+    std::vector<std::string> warned;
+    double                   grouted_at_start = 0.; ///< [m]
   };
 
   /** Returns the joint laws of a partly grouted dam. Pairs above the height @p grouted [m] have the law in
