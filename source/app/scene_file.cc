@@ -183,7 +183,7 @@ namespace Voussoir
     }
     std::map<std::string, WrittenEntry>                        written; // the last value is used
     std::map<std::pair<std::string, std::size_t>, std::string> places;  // by entry and file
-    std::vector<std::string>                                   twice;
+    std::vector<Warning>                                       twice;
     for (Entry &entry : entries)
     {
       const DeclaredEntry &declared = declaration(known, entry);
@@ -191,8 +191,10 @@ namespace Voussoir
       written[declared.name()] = {declared, entry.value, entry.place};
       std::string &before = places[{declared.name(), entry.text}];
       if (!before.empty() && entry.text != Entry::no_number)
-        twice.push_back(declared.name() + " is in the file twice, " + before + " and " + entry.place +
-                        ": the last value is used, " + entry.value + ". Remove one of them.");
+        twice.push_back({Warning::Kind::input,
+                         declared.name() + " is in the file twice, " + before + " and " + entry.place +
+                             ": the last value is used, " + entry.value + ". Remove one of them.",
+                         entry.place});
       before = entry.place;
     }
     scene.check();

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/output/archive.h>
 #include <voussoir/output/observers.h>
 
@@ -37,11 +38,14 @@ namespace Voussoir
     catch (const ComputationError &)
     {
       coarse_run.reset();
-      log.line(
-          "warning: there will be no estimate of the error due to the time step (Dynamics/Error "
-          "estimate): the comparison run with twice the time step stopped at t = %g s. This run continues "
-          "and is not affected. Double \"Dynamics/Steps per sample\" for an estimate.",
-          run.newmark->state().time);
+      const std::string time = "t = " + number_text(run.newmark->state().time) + " s";
+      log.warn({Warning::Kind::input,
+                "there will be no estimate of the error due to the time step (Dynamics/Error estimate): the "
+                "comparison run with twice the time step stopped at " +
+                    time +
+                    ". This run continues and is not affected. Double \"Dynamics/Steps per sample\" for an "
+                    "estimate.",
+                time});
     }
   }
 
