@@ -11,6 +11,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 try:
+    from voussoir.command import write_whole
     from voussoir.error_bars import bar_text
     from voussoir.errors import InputError
     from voussoir.runs import Run
@@ -34,7 +35,7 @@ def main():
     text = file.read_text(encoding="utf-8").rstrip()
     if "error_bars" not in json.loads(text):
         added = json.dumps(bars, indent=2).replace("\n", "\n  ")
-        file.write_text(text[:-1].rstrip() + f',\n  "error_bars": {added}\n}}\n', encoding="utf-8")
+        write_whole(file, text[:-1].rstrip() + f',\n  "error_bars": {added}\n}}\n')
     return 0
 
 

@@ -126,6 +126,43 @@ namespace
     expect_error([&] { make_motion(p, ""); }, {"ten million", "Time step"});
   }
 
+  // A station whose record begins later: as with zeros before; a delay of no whole number of steps is interpolated.
+  void delayed_stations()
+  {
+    const auto a = sine(2., .3, .01, 301), b = sine(3., .7, .01, 301);
+    write_text("input_base.txt", table(a, .01, 3.));
+    MotionParameters p = file_parameters();
+    p.component_files = {{"input_base.txt", "", ""}};
+    p.abutments = {{"left 5", "input_station.txt, -, -"}};
+    const auto station = [&](const std::vector<double> &samples, const double start)
+    {
+      write_text("input_station.txt", table(samples, .01, start));
+      return make_motion(p, "").stations.at(0).acceleration;
+    };
+    std::vector<double> with_zeros(50, 0.);
+    with_zeros.insert(with_zeros.end(), b.begin(), b.end());
+    const auto late = station(b, 3.5), padded = station(with_zeros, 3.);
+    for (std::size_t k = 0; k < 301; ++k)
+      expect_within(late[k][0], padded[k][0], 1e-10, "zeros before the first time");
+    const auto later = station(b, 3.137);
+    expect(later.size() == 301 && later[13][0] == 0., "zero before");
+    for (std::size_t k = 14; k < 301; ++k)
+      expect_within(later[k][0], .7 * b[k - 14] + .3 * b[k - 13], 1e-9, "linear between the samples");
+    p.baseline = "linear"; // of the record alone
+    const auto corrected = without_baseline(std::vector<double>(b.begin(), b.begin() + 251), 1);
+    const auto baseline = station(b, 3.5);
+    for (std::size_t k = 0; k < 301; ++k)
+      expect_within(baseline[k][0], k < 50 ? 0. : corrected[k - 50], 1e-10, "baseline of a later record");
+    p.baseline = "none";
+    expect_error([&] { station(b, 2.9); }, {"left 5", "begins at 2.9 s", "begins at 3 s"});
+    expect_error(
+        [&] {
+          station({b.begin(), b.begin() + 200}, 3.5);
+        },
+        {"left 5", "ends at 5.49 s", "ends at 6 s", "Duration", "at most 2.49 s"});
+    expect_error([&] { station(b, 6.5); }, {"left 5", "begins at 6.5 s", "after the end"});
+  }
+
   void factors()
   {
     MotionParameters   p;
@@ -367,7 +404,7 @@ namespace
       write_text("input_target.csv", text);
       return [=] { make_motion(p, ""); };
     };
-    expect_error(bad("0 1\n.1 2 3\n3 1\n"), {"Target spectrum 'input_target.csv', line 2", "3 columns"});
+    expect_error(bad("0 1\n.1 2 3\n3 1\n"), {"Spectrum 'input_target.csv', line 2", "3 columns"});
     expect_error(bad("0 1 1\n3 1 1\n"), {"line 1", "3 columns"});
     expect_error(bad("0 1\n.1 nan\n3 1\n"), {"input_target.csv', line 2", "nan"});
     expect_error(bad("0 1\n.1 -1\n3 1\n"), {"line 2", "-1", "positive"});
@@ -509,6 +546,7 @@ int main(int argc, char **argv)
 {
   return run({{"resampling", resampling},
               {"unequal_records", unequal_records},
+              {"delayed_stations", delayed_stations},
               {"factors", factors},
               {"short_motions", short_motions},
               {"ends", ends},

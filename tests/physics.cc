@@ -667,32 +667,48 @@ namespace
     }
   }
 
-  /** Files of spectra: interpolation, and messages of invalid files. */
+  /** Files of spectra: units, vertical ratio, interpolation, and messages of invalid files. */
   void spectrum_files()
   {
     const auto write = [](const std::string &text) { std::ofstream("spectrum.csv") << text; };
-    write("period [s]; a [m/s^2]\n\n# rock\n0.02, 2\n.1\t5 # plateau\r\n.2;5\n3 1\n");
-    const SpectrumTable table = read_spectrum("spectrum.csv");
-    for (const auto &[period, a] :
-         {std::make_pair(0., 2.), {.02, 2.}, {.06, 3.5}, {.15, 5.}, {1.6, 3.}, {3., 1.}})
-      expect_close(table.at(period), a, 1e-12, "spectrum of a file");
-    throws<InputError>("long period", [&] { table.at(3.1); }, {"spectrum.csv", "ends", "3 s", "3.1 s"});
+    const auto read = [](const std::string &unit = "") {
+      return read_spectrum("spectrum.csv", unit, .5, {SpectrumTable::rigid_period, .1});
+    };
+    write("period [s]; a [m/s^2]\n\n# rock\n0.02, 2\n.1\t5 # plateau\r\n.2;5\n3.2 1.25\n");
+    const SpectrumTable table = read();
+    for (const auto &[period, a] : {std::make_pair(0., 2.), {.02, 2.}, {.15, 5.}, {.8, 2.5}, {3.2, 1.25}})
+    {
+      expect_close(table.at(0, period), a, 1e-12, "spectrum of a file");
+      expect_close(table.at(2, period), .5 * a, 1e-12, "vertical spectrum of a file");
+    }
+    for (const auto &[headings, factor] : {std::make_pair("T,Sa (g)", standard_gravity),
+                                           {"T,Sa [gal]", .01},
+                                           {"T,Sa [m/s\u00b2]", 1.},
+                                           {"T,Sa [ft/s2]", .3048},
+                                           {"T,Sa", 1.}})
+    {
+      write(headings + std::string("\n0 .28\n4 .1\n"));
+      expect_close(read().at(0, 0.), .28 * factor, 1e-12, headings);
+      expect(read().states_unit == (std::string(headings) != "T,Sa"), "unit of the headings");
+    }
+    write("T,Sa [cm/s2]\n0 100\n4 50\n");
+    expect_close(read("gal").at(0, 0.), 1., 1e-12, "equal units");
+    throws<InputError>("other unit", [&] { read("g"); }, {"unit cm/s^2", "Motion/Unit is g"});
     const std::vector<std::pair<std::string, std::vector<std::string>>> wrong = {
-        {"0 1\n1 2 3\n", {"line 2", "two numbers"}},
-        {"0 1\n1 x\n", {"line 2", "two numbers"}},
+        {"0 1\n1 2 3\n", {"line 2", "3 columns"}},
+        {"0 1\n1 x\n", {"line 2", "'x'"}},
         {"0 1\n1 nan\n", {"line 2"}},
-        {"0 1\n1 -2\n", {"line 2", "negative"}},
-        {"0 1\n2 1\n2 1\n", {"line 3", "ascend"}},
-        {"0 1\n", {"fewer than two"}},
-        {"0.1 1\n1 1\n", {"begins", "0.1 s"}}};
+        {"0 1\n1 -2\n", {"line 2", "positive"}},
+        {"0 1\n2 1\n2 1\n", {"line 3", "increase"}},
+        {"0 1\n", {"end at 0.1 s"}},
+        {"T Sa\n", {"no numbers"}},
+        {"0.1 1\n1 1\n", {"begin", "0.1 s"}}};
     for (const auto &[text, parts] : wrong)
     {
       write(text);
       throws<InputError>(
-          "spectrum " + parts.back(), [] { read_spectrum("spectrum.csv"); }, parts);
+          "spectrum " + parts.back(), [&] { read(); }, parts);
     }
-    throws<InputError>("no spectrum", [] { read_spectrum("nothing.csv"); },
-                       {"nothing.csv", "cannot be read"});
   }
 
   /** Damped against a base that moves with the velocity t: v = t - (1 - exp(-alpha t))/alpha. */

@@ -138,7 +138,7 @@ def objects():
     groups = [re.sub("^Groups ", "", line).strip() for line in re.search(r"^Groups(.*\n)+(?=Unknowns)", text, re.M)[0].splitlines()]
     expect([row.strip() for row in model["groups"]] == groups and len(groups) == 5, f"{model['groups']}, {groups}")
     warned = re.findall("^warning: (.*)$", text, re.M)
-    expect(len(warned) == 2 and model["warnings"] == warned and messages == "".join(f"voussoir: warning: {w}\n" for w in warned), messages)
+    expect(len(warned) == 2 and [w["text"] for w in model["warnings"]] == warned and messages == "".join(f"voussoir: warning: {w}\n" for w in warned), messages)
     for law in ("FJB", "tied"):
         expect(both(*settings(f"Joints/Model={law}"))[1]["law"] == law, law)
     expect(both(*settings("Joints/Overrides=2: FJB"))[1]["joints"]["overrides"] == {"2": "FJB"}, "overrides")
@@ -163,7 +163,8 @@ def objects():
             close(mode[f"participation_{d}"] ** 2 / mass, mode[f"share_{d}"], 6, f"share {d}")
     result = voussoir("modes", "scene.prm", "--count", "1", "--json", *settings("Concrete/Density=2.4"))
     warned = json.loads(result.stdout)["warnings"]
-    expect(len(warned) == 1 and result.stderr == f"voussoir: warning: {warned[0]}\n", result.stderr)
+    expect(len(warned) == 1 and result.stderr == f"voussoir: warning: {warned[0]['text']}\n", result.stderr)
+    expect(warned[0]["class"] == "physics" and warned[0]["place"] == "--set", f"{warned}")
 
 
 def answered(answers, *arguments):
@@ -185,7 +186,7 @@ def accepted(file, lines, allowed="at rest"):
     result = voussoir(file, "--validate", "--json")
     expect(result.returncode == 0, f"{file}: {result.stderr}\n{text}")
     model = json.loads(result.stdout)
-    expect([w for w in model["warnings"] if not re.search(allowed, w)] == [], f"{model['warnings']}")
+    expect([w for w in model["warnings"] if not re.search(allowed, w["text"])] == [], f"{model['warnings']}")
     return model, dict(re.findall(r"^ *set (.*?) = (.*)$", text, re.M))
 
 

@@ -30,6 +30,7 @@ def artificial():
         names, motions[name] = table(f"{name}.csv")
         expect(names == ["t", "a_x", "a_y", "a_z"], f"columns of {name}.csv")
         expect(all(math.isfinite(x) for row in motions[name] for x in row), f"{name}.csv is not finite")
+        expect("another Motion/Duration is another motion" in shown, shown)
     expect(len(motions["one"]) == 1537 and len(motions["short"]) == 501, "lengths")
     # The envelope of 15 s and more stays as it was.
     expect(abs(max(abs(row[1]) for row in motions["one"]) - 0.5575 * 9.80665) < 1e-9, "peak acceleration")
@@ -107,6 +108,15 @@ def units():
                 runs(*options)
             else:
                 refused(options, "table.csv", f"headings with the unit {unit}, but Motion/Unit is {given}", f"Set Motion/Unit = {unit}")
+    table_of("# record in Gal\nt,x,y,z\n", 2.)
+    runs(*asked("--set", "Motion/Unit=cm/s^2"))
+    expected = Path("m.csv").read_bytes()
+    for spelled in ("cm/s2", "gal", "Gal"):
+        runs(*asked("--set", f"Motion/Unit={spelled}"))
+        expect(Path("m.csv").read_bytes() == expected, f"a record in {spelled}")
+    refused(asked("--set", "Motion/Unit=m/s"), "Motion/Unit", "m/s^2, m/s2, cm/s^2, cm/s2, mm/s^2, mm/s2, gal, Gal, g, ft/s^2, ft/s2")
+    table_of("t [s], a [ft/s2]\n", 2.)
+    refused(asked("--set", "Motion/Unit=m/s^2"), "headings with the unit ft/s^2", "Set Motion/Unit = ft/s^2")
     table_of("", 380.)  # in cm/s2
     expect("the peak acceleration of the motion is 38.7 g" in runs(*asked()), "a record in cm/s2 that is taken in m/s2")
     expect("the peak" not in runs(*asked("--set", "Motion/Unit=cm/s^2")), "a record in cm/s2")

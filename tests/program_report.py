@@ -10,11 +10,13 @@ The browser is a headless Chromium; where there is none its case is skipped (sta
 import csv
 import json
 import math
+import os
 import shutil
 import sys
 from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
+from unittest import mock
 
 from browser import Browser, find_browser
 from program_physics import Solution, close, read_vtu
@@ -269,10 +271,15 @@ def answers():
     said = answered("run")["Are the results valid?"]
     expect("passes its checks" in said and "not estimated" in said, said)
     for key, value, words in (("energy_balance_error", 2e-4, "energy balance 2.0 × 10⁻⁴"), ("contact_residual", 3e-9, "contact residual 3.0 × 10⁻⁹"),
-                              ("warnings", ["look"], "warnings of the program: 1")):
+                              ("warnings", ["look"], "warnings of the program: 1 (look)"),
+                              ("warnings", [{"class": "physics", "text": "It cavitates. See there.", "place": ""}], "warnings of the program: 1 (It cavitates)")):
         Path("run/summary.json").write_text(json.dumps({**found, key: value}))
         said = answered("run")["Are the results valid?"]
         expect(f"Not all checks are satisfied:</b> {words}" in said, said)
+    Path("run/summary.json").write_text(json.dumps({**found, "warnings": [{"class": "input", "text": "A/B has no effect.", "place": "a.prm, line 2"}]}))
+    said = answered("run")["Are the results valid?"]
+    expect("passes its checks" in said and "warnings of the program: none; remarks on the input file: 1" in said, said)
+    expect("A/B has no effect." in Reader("run/report.html").text, "a remark on the input is not in the list")
 
 
 def cracking(directory, found):
@@ -323,7 +330,7 @@ def content():
     changes = dict.fromkeys(("opening", "slip", "tension_upstream", "tension_downstream", "base_shear", "sliding_safety", "crest"), .07)
     row = {"group": "water", "name": "empty reservoir", "changes": changes, "counts": dict.fromkeys(changes, True), "cost": .9, "verdict": "matters", "reason": ""}
     Path("scene-needs").mkdir()
-    Path("scene-needs/needs.json").write_text(json.dumps({"rows": [row], "smallest": {"rows": []}, "target": .05, "seconds": 5, "entries": {}}))
+    Path("scene-needs/needs.json").write_text(json.dumps({"rows": [row], "smallest": {"rows": []}, "target": ".05", "seconds": "5", "entries": {}}))
     added_columns("run")
     runs("report", "run")
     full = Reader("run/report.html")
@@ -387,6 +394,42 @@ def refusals():
     Path("run/history.csv").write_text("\n".join(history))
     runs("report", "run")  # without stresses
     expect("Not shown" in Reader("run/report.html").text, "what is missing is not said")
+
+
+def received():
+    """The directory of another person: no link in it is read or written through. Title of the tab."""
+    write_scene()
+    runs("scene.prm", "--output", "run")
+    Path("mine.txt").write_text("mine")
+    Path("run/figures").mkdir()
+    links = [Path("run/report.html"), Path("run/figures/energy.png")]
+    for link in links:
+        link.symlink_to(Path("mine.txt").resolve())
+        refused(["report", "run"], str(link), "link out of the directory")
+        link.unlink()
+    Path("run/copy.txt").symlink_to("log.txt")  # a link within the directory
+    links[0].symlink_to("../mine.txt")
+    from voussoir import figures, report
+    with mock.patch.object(report, "refuse_links"), mock.patch.object(sys, "argv", ["report", "run", "--title", "Dam <A>"]):
+        report.main()
+    expect(not links[0].is_symlink() and "<title>Dam &lt;A&gt;</title>" in links[0].read_text(encoding="utf-8"), "the page")
+    links[1].symlink_to("../../mine.txt")
+    with mock.patch.object(sys, "argv", ["figures", "run"]):
+        expect(figures.main() == 0, "figures")
+    expect(links[1].read_bytes()[1:4] == b"PNG" and not links[1].is_symlink() and Path("mine.txt").read_text() == "mine", "written through a link")
+    os.mkfifo("run/pipe")
+    refused(["report", "run"], "run/pipe", "a pipe")
+    Path("run/pipe").unlink()
+    Path("run/copy.txt").unlink()
+    for name, target in (("run/log.txt", "/etc/hostname"), ("run/loop", "loop")):
+        Path(name).unlink(missing_ok=True)
+        Path(name).symlink_to(target)
+        refused(["report", "run"], name, "link out of the directory")
+        Path(name).unlink()
+    Path("scene-modes").mkdir()
+    Path("scene-modes/modes.csv").symlink_to("../mine.txt")
+    runs("report", "run")
+    expect("modes.csv is a link out of the directory" in Reader("run/report.html").text, "a link in a directory beside the run")
 
 
 def numbers():
@@ -731,4 +774,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, beside_static, browser, colours, units, answers, content, refusals, numbers, unjudged, undecided, earlier, keys, ended, spectrum)
+    run_cases(page, beside_static, browser, colours, units, answers, content, refusals, received, numbers, unjudged, undecided, earlier, keys, ended, spectrum)

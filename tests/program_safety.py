@@ -5,8 +5,10 @@
     program_safety.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
+import json
 import os
 import random
+import re
 import resource
 import shutil
 import signal
@@ -17,6 +19,8 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 from voussoir.vtu import read_vtu  # noqa: E402
+from program_physics import settings  # noqa: E402
+from program_wedges import write_wedges  # noqa: E402
 from run_program import (VOUSSOIR, arch_mesh, expect, from_file, refused, run_cases, runs, same, table, voussoir, write,
                          write_scene)  # noqa: E402
 
@@ -268,5 +272,55 @@ def writing():
         failed(voussoir(command, "scene.prm", "--output", f"full{ending}"), f"full{ending}")
 
 
+def lost(output, remove, *parts):
+    """The run must fail after remove(), which takes a file or the directory away from it."""
+    process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", output, *LONG], text=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+    while process.poll() is None and not Path(output, "history.csv").exists():
+        time.sleep(.002)
+    process.send_signal(signal.SIGSTOP)
+    remove()
+    process.send_signal(signal.SIGCONT)
+    message = process.communicate()[1]
+    failed(subprocess.CompletedProcess([], process.returncode, "", message), *parts)
+    expect("disk space" not in message, message)
+
+
+def losses():
+    """A run whose files are removed, or whose directory is renamed, does not end with status 0."""
+    write_scene()
+    for name in ("history.csv", "log.txt", "spectrum.csv"):
+        lost(f"without_{name}", lambda name=name: Path(f"without_{name}", name).unlink(), f"without_{name}/{name} was removed", "--resume")
+    runs("scene.prm", "--output", "without_history.csv", *LONG, "--resume")
+    expect(len(table("without_history.csv/history.csv")[1]) == 301, "the whole history")
+    lost("named", lambda: Path("named").rename("renamed"), "named/", "directory renamed", "no longer exists", "--output")
+    lost("gone", lambda: shutil.rmtree("gone"), "gone/", "no longer exists", "start the run again")
+
+
+def repeated():
+    """Every file of a run is known as a result: a finished run is repeated in its directory. Every warning of its log is in the summary and the report."""
+    write_scene()
+    full = [*write_wedges(), *settings(
+        "Motion/Duration=0.1", "Motion/Factor=8", "Reservoir/Model=acoustic", "Reservoir/Element size=25", "Statics/Stages=fill 100, grout 210",
+        "Limits/Tensile strength=2 MPa", "Limits/Base friction=1", "Limits/Waterstop depth=1.5", "Output/Figures=true", "Output/Solution interval=5",
+        "Output/Checkpoint interval=3", "Output/Frames=5", "Contact/Write problems=true", "Joints/Keys/Height=0.3")]
+    shown = runs("scene.prm", "--output", "full", *full)
+    runs("report", "full")
+    written = {str(path.relative_to("full")) for path in Path("full").rglob("*") if path.is_file()}
+    for name in ("water_pressure.csv", "stages.csv", "wedges.csv", "frames.bin", "solution.pvd", "figures/envelope_arch_upstream.png", "contact/shaking/problem-000001.hdf5"):
+        expect(name in written, f"{name} is missing: {sorted(written)}")
+    runs("scene.prm", "--output", "full", *full)
+    expect(written - {str(path.relative_to("full")) for path in Path("full").rglob("*")} == {"report.html"}, "files of the second run")
+    warned = re.findall("^warning: (.*)$", shown, re.M)
+    found = json.loads(Path("full/summary.json").read_text())["warnings"]
+    expect([w["text"] for w in found] == warned, f"{found}, {warned}")
+    cavitation, idle = (next(w for w in found if word in w["text"]) for word in ("cavitate", "Joints/Keys/Height"))
+    expect(cavitation["class"] == "physics" and cavitation["place"] in cavitation["text"] and ") m, t = " in cavitation["place"], f"{cavitation}")
+    expect(idle["class"] == "input" and idle["place"] == "--set" and "has no effect" in idle["text"], f"{idle}")
+    runs("report", "full")
+    page = Path("full/report.html").read_text()
+    harmless = sum(w["class"] == "input" for w in found)
+    expect(f"warnings of the program: {len(found) - harmless} (" in page and f"remarks on the input file: {harmless}" in page, "page one")
+
+
 if __name__ == "__main__":
-    run_cases(names, checkpoints, signals, directories, writing)
+    run_cases(losses, repeated, names, checkpoints, signals, directories, writing)

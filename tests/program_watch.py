@@ -97,11 +97,11 @@ def joint_reach():
     sound = runs("scene.prm", "--output", "sound")
     expect("warning: joint" not in sound, "no warning without reason")
     shown = re.findall("^warning: (.*)", sound, re.M)
-    expect(shown and summary("sound")["warnings"] == shown, f"the summary has the warnings of the log: {shown}")
+    expect(shown and [w["text"] for w in summary("sound")["warnings"]] == shown, f"the summary has the warnings of the log: {shown}")
     # Three times the motion, almost no friction, and 16 thin elements through the dam.
     far = settings("Motion/Factor=3", "Joints/Friction=0.05", "Mesh/Arch210/Elements through=16")
     shown = runs("scene.prm", "--output", "far", *far)
-    warnings = [w for w in summary("far")["warnings"] if w.startswith("joint ")]
+    warnings = [w["text"] for w in summary("far")["warnings"] if w["text"].startswith("joint ")]
     print("   ", *warnings, sep="\n    ")
     expect(warnings and all("nodes no longer face" in w for w in warnings), f"{warnings}")
     expect(shown.count("warning: joint") == len(warnings) <= 2, "one warning for each joint, in the log too")

@@ -80,7 +80,15 @@ namespace
           {"kN/m3", 101.9716212977928},
           {"lb/ft3", 16.01846337396014}}},
         {"m/s^2",
-         {{"m/s2", 1.}, {"cm/s2", .01}, {"mm/s2", 1e-3}, {"gal", .01}, {"g", 9.80665}, {"ft/s2", .3048}}},
+         {{"m/s2", 1.},
+          {"m/s/s", 1.},
+          {"cm/s2", .01},
+          {"cm/sec/sec", .01},
+          {"mm/s2", 1e-3},
+          {"gal", .01},
+          {"Gal", .01},
+          {"g", 9.80665},
+          {"ft/s2", .3048}}},
         {"m/s", {{"m/s", 1.}, {"km/s", 1e3}, {"cm/s", .01}, {"mm/s", 1e-3}, {"ft/s", .3048}}},
         {"degrees",
          {{"degrees", 1.}, {"degree", 1.}, {"deg", 1.}, {"\u00b0", 1.}, {"rad", 57.29577951308232}}},
@@ -150,7 +158,10 @@ namespace
     Entries prm;
     Scene   scene;
     read_scene("warnings.prm", {}, scene, prm);
-    return scene.warnings;
+    std::vector<std::string> texts;
+    for (const Warning &warning : scene.warnings)
+      texts.push_back(warning.text);
+    return texts;
   }
 
   /** A scene and the parts of each warning that it has, in any order of the warnings. */
@@ -200,6 +211,15 @@ namespace
     std::ostringstream all;
     prm.print_parameters(all, dealii::ParameterHandler::PRM);
     expect(warnings_of(all.str()).empty(), "the defaults produce warnings");
+
+    std::ofstream("warnings.prm") << "subsection Joints\nset Friction = 0.5\nset Model = FJB\nend\n"
+                                     "subsection Concrete\nset Density = 2.4\nend\n";
+    Entries of_classes;
+    read_scene("warnings.prm", {}, scene, of_classes);
+    expect(scene.warnings.size() == 2 && scene.warnings[0].kind == Warning::Kind::physics &&
+               scene.warnings[0].place == "warnings.prm, line 6" &&
+               scene.warnings[1].kind == Warning::Kind::input && scene.warnings[1].place == "warnings.prm, line 2",
+           "class and place of warnings");
 
     const std::vector<Warned> cases = {
         {"subsection Joints\nset Friction = 0.5\nset Model = FJB\nend\n",
@@ -261,6 +281,9 @@ namespace
     { return "subsection " + section + "\nset Zones = heel: " + text + "\nend\n"; };
     const auto rock = [&](const std::string &model, const std::string &text)
     { return "subsection Foundation\nset Model = " + model + "\nset Zones = fault: " + text + "\nend\n"; };
+    const auto list = [](const std::string &section, const std::string &entry)
+    { return "subsection " + section + "\nset " + entry + "\nend\n"; };
+    std::ofstream("mass.csv") << "0,0\n200,150\n";
     const auto table = [](const std::string &day, const std::string &more)
     {
       return "subsection Loads\nsubsection Temperature\nset Table = kelvin.csv\nset Day = " + day +
@@ -276,6 +299,19 @@ namespace
         {rock("rock", "2e11 0.2 2700"), {"Foundation/Zones: zone fault, Young's modulus", "2e+11 Pa"}},
         {rock("rock", "2e10 0.2 27"), {"the density is 27 kg/m^3"}},
         {rock("massless", "2e10 0.2 27"), {}}, // is not used
+        {list("Joints", "Initial gaps = 1: 2, 2: 1 mm"),
+         {"Joints/Initial gaps: 1 is 2 m: usual is 1e-05 to 0.05 m", "20 cm"}},
+        {list("Joints", "Initial gaps = 1: 2 mm, 2: 0"), {}},
+        {list("Statics", "Stages = cut 1 by 10"), {"Statics/Stages: width of the cut of 1 is 10 m"}},
+        {list("Statics", "Stages = grout 90 at 0.5, cut 1 by 10 mm"),
+         {"Statics/Stages: pressure of grout 90 is 0.5 Pa: usual is 10000 to 5e+06 Pa"}},
+        {list("Statics", "Stages = grout 90, grout 100 at 0.5 MPa, cut 1 by 10 mm"), {}},
+        {list("Loads", "Crest line = 30 0 -40"), {"Loads/Crest line: the force per length is 50 N/m"}},
+        {list("Loads", "Crest line = 0 0 -5e4"), {}},
+        {list("Loads", "Concentrated = crane: 0 0 9 0 0 -300; gate: 0 0 9 2e6 0 0"),
+         {"Loads/Concentrated: crane is 300 N"}},
+        {list("Reservoir", "Model = added mass table\nset Table = mass.csv"),
+         {"Reservoir/Table: largest added mass of mass.csv is 150 kg/m^2: usual is 1000 to 1e+06 kg/m^2"}},
         {table("200", ""), {}},
         {table("50", "subsection Silt\nend\n"),
          {"Loads/Temperature/Table (kelvin.csv): Upstream face on day 50 is 285.5 degC", "-40 to 50 degC",

@@ -7,6 +7,7 @@ names the program. Bad input ends with status 2, a failed computation with 1.
 
 import argparse
 import fcntl
+import os
 import re
 import sys
 from pathlib import Path
@@ -44,6 +45,19 @@ def lock_directory(directory, what, folders=()):
         lock.close()
         raise InputError(f"Another {what} is running in {directory}. Wait until it has ended, or choose another with --output.") from None
     return lock
+
+
+def write_whole(path, data):
+    """The file gets all of the text or bytes, or keeps what it has. A link is replaced; its target is not written. Throws OSError."""
+    path = Path(path)
+    new = path.with_name(f".{path.name}.{os.getpid()}.new")
+    new.unlink(missing_ok=True)
+    try:
+        with open(os.open(new, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o666), "wb") as file:
+            file.write(data if isinstance(data, bytes) else data.encode("utf-8"))
+        os.replace(new, path)
+    finally:
+        new.unlink(missing_ok=True)
 
 
 def end_with(main):

@@ -17,11 +17,13 @@ Exit status: 0 done, 1 some data could not be understood, 2 not an output direct
 
 import argparse
 import sys
+from io import BytesIO
 from multiprocessing import get_context
 from pathlib import Path
 
 import numpy as np
 
+from .command import write_whole
 from .errors import InputError
 from .drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, draw_base, draw_crest, draw_crest_bars, draw_energy,
                       draw_face, draw_floor_spectra, draw_joint_history, draw_spectrum, energy_parts, imbalance, plt, stress_bar, worst_joints)
@@ -160,9 +162,13 @@ def main():
         return 2
 
     def save(run, figure, name):
-        (run.directory / "figures").mkdir(exist_ok=True)
+        folder, data = run.directory / "figures", BytesIO()
+        if folder.is_symlink():
+            raise ValueError(f"{folder} is a link")
+        folder.mkdir(exist_ok=True)
         metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(options.format)
-        figure.savefig(run.directory / "figures" / f"{name}.{options.format}", metadata=metadata)
+        figure.savefig(data, format=options.format, metadata=metadata)
+        write_whole(folder / f"{name}.{options.format}", data.getvalue())
         plt.close(figure)
 
     todo = [envelopes, history, spectrum, floor_spectra, energy]

@@ -10,6 +10,7 @@ from pathlib import Path
 from textwrap import wrap
 from typing import Any, Dict, List, Mapping, Tuple
 
+from .command import write_whole
 from .needs_verdicts import COLUMNS, UNKNOWN
 from .palette import COLOURS
 from .prm import prm_text, read_entries
@@ -75,9 +76,7 @@ def write_table(rows: List[Dict[str, Any]], file: Path) -> None:
 
 def write_json(result: Mapping[str, Any], file: Path) -> None:
     """Writes needs.json, whole or not at all."""
-    new = file.with_name(file.name + ".new")
-    new.write_text(json.dumps(result, indent=1, default=str) + "\n", encoding="utf-8")
-    new.replace(file)
+    write_whole(file, json.dumps(result, indent=1, default=str) + "\n")
 
 
 def draw(rows: List[Dict[str, Any]], target: float, directory: Path) -> List[Path]:

@@ -18,11 +18,11 @@ from typing import Any, Dict, Mapping, Optional, Set
 import numpy as np
 
 from .accuracy import SUBSTEPS, strongest
+from .command import write_whole
 from .errors import VoussoirError
 from .needs_verdicts import measures_of
 from .program import call, find_program, message_of, program_key, set_options
 from .study_file import with_paths
-from .study_scene import write_whole
 
 VERSION = b"needs 1"  # of what this module reads of a run: other runs are made again
 # Settings of the part of the motion: it has the unit, the scale and the corrections already.

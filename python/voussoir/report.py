@@ -20,13 +20,13 @@ from pathlib import Path
 from . import report_figures as figures
 from . import report_view3d as view3d
 from .chromium import find_browser, print_page
-from .command import Parser
+from .command import Parser, write_whole
 from .errors import ComputationError, InputError
 from .prm import prm_text
 from .report_answers import accuracy_sentence, answers, mesh_quality, modes, modes_of
-from .report_needs import needs_of, needs_table, smallest_sentence
+from .report_needs import needs_of
 from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, tiles, verdict, wedges, wedges_of
-from .runs import NotComputed, Run, Skip, name_apart
+from .runs import NotComputed, Run, Skip, name_apart, refuse_links
 
 
 STUDY = ("title", "owner", "author", "date")  # options with the texts of the title page
@@ -38,6 +38,7 @@ class Page:
     def __init__(self):
         self.parts, self.missing, self.further, self.figures = [], [], [], 0
         self.styles, self.scripts = [], []  # of the page, in this order
+        self.title = ""  # of the tab, and of a PDF
 
     def add(self, text):
         self.parts.append(text)
@@ -78,7 +79,7 @@ class Page:
             self.further.append(f"{what}: {command}")
         except Skip as reason:
             self.missing.append(f"{what}: {reason}")
-        except (ArithmeticError, LookupError, ValueError) as error:
+        except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as error:
             self.missing.append(f"{what}: the data are not understood ({type(error).__name__}: {error})")
             print(f"voussoir: warning: {what}: {type(error).__name__}: {error}", file=sys.stderr)
         return None
@@ -104,6 +105,7 @@ def head(page, runs, study):
     if len({r.scene for r in runs}) > 2:
         title = ""
     title = study.get("title") or f"Earthquake analysis of {f'the arch dam “{title}”' if title else f'an arch dam: {len(runs)} runs'}"
+    page.title = study.get("title") or ", ".join(run.heading for run in runs)
     page.add(f"<header><h1>{escape(title)}</h1>")
     rows = [("Owner", study.get("owner")), ("Author", study.get("author")), ("Date", study.get("date") or date_of(datetime.now())),
             ("Runs" if several else "Model", ", ".join(r.name for r in runs) if several else run.facts.get("Joints", run.law)),
@@ -295,8 +297,8 @@ def needs(page, runs):
     for run in {run.scene: run for run in reversed(runs)}.values():
         if run.moves and (found := page.made(f"what the scene of {run.name} needs", lambda run=run: needs_of(run))) is not None:
             page.section(f"What the scene{' ' + run.scene if len(runs) > 1 else ''} needs")
-            page.add(f"<p>{smallest_sentence(found)}</p>{needs_table(found)}")
-            page.add(f'<p class="sub">Change of each result in percent, over the strongest {found["seconds"]:g} s of the motion; cost as a ratio. In brackets: '
+            page.add(f"<p>{found[0]}</p>{found[1]}")
+            page.add(f'<p class="sub">Change of each result in percent, over the strongest {found[2]:g} s of the motion; cost as a ratio. In brackets: '
                      "negligible differences.</p>")
 
 
@@ -324,9 +326,10 @@ def checks(page, runs):
         if sentence := page.made(f"error of mesh and time step of {run.name}", lambda run=run: accuracy_sentence(run)):
             page.add(f"<p>{f'<b>{escape(run.name)}.</b> ' if len(runs) > 1 else ''}{sentence}</p>")
     page.add("<h3>Warnings</h3>")
-    texts = [(run, text) for run in runs for text in run.summary.get("warnings", [])]
-    rows = "".join(f'<li class="warning">{escape(named(runs, run))}{": " if len(runs) > 1 else ""}{escape(text)}</li>' for run, text in texts)
-    page.add(f"<ul>{rows}</ul>" if texts else "<p>None.</p>")
+    found = [(run, warning) for run in runs for warning in run.warnings]
+    rows = "".join(f'<li{"" if warning["class"] == "input" else " class=warning"}>{escape(named(runs, run))}{": " if len(runs) > 1 else ""}'
+                   f'{escape(str(warning["text"]))}</li>' for run, warning in found)
+    page.add(f"<ul>{rows}</ul>" if found else "<p>None.</p>")
 
 
 def repeat(page, runs, study):
@@ -367,12 +370,11 @@ def page_of(runs, study):
         page.add(f"<h3>Further content, and the command that adds it</h3>{listed(page.further)}")
     page.add("<footer>Made by Voussoir’s <code>report</code>. Units are SI; openings and slips in mm, stresses in MPa, forces in MN.</footer>")
     styles = [(Path(__file__).resolve().parent / "report.css").read_text(), *page.styles]
-    title = escape(", ".join(run.heading for run in runs))
     policy = ("default-src 'none'; img-src data:; " + allowed("style-src", styles) + allowed("script-src", page.scripts)
               + "base-uri 'none'; form-action 'none'")
     text = (f'<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8"><meta http-equiv="Content-Security-Policy" content="{policy}">'
             '<meta name="viewport" content="width=device-width, initial-scale=1">'
-            f'<title>{title}</title><link rel="icon" href="data:,">' + "".join(f"<style>{style}</style>" for style in styles)
+            f'<title>{escape(page.title)}</title><link rel="icon" href="data:,">' + "".join(f"<style>{style}</style>" for style in styles)
             + "</head><body>\n" + "\n".join(page.parts) + "".join(f"\n<script>{script}</script>" for script in page.scripts)
             + "\n</body></html>\n")
     return text.encode("utf-8", "backslashreplace").decode()  # JSON may hold halves of characters
@@ -385,9 +387,8 @@ def print_pdf(page, text, pdf):
     if (browser := find_browser()) is None:
         raise InputError("--pdf needs a Chromium, and none is on the PATH. On Debian: apt-get install chromium; or open "
                          f"{page} in any browser and print it; the environment variable VOUSSOIR_BROWSER may name one.")
-    pdf.unlink(missing_ok=True)
     try:
-        pdf.write_bytes(print_page(text))
+        write_whole(pdf, print_page(text))
     except OSError as error:
         raise ComputationError(f"{browser} did not print {pdf}: {error}. The page {page} is complete.") from error
 
@@ -402,6 +403,8 @@ def main():
     options = parser.parse_args()
     if not options.directories:
         raise InputError("`voussoir report` needs the output directory of a run, or of several: voussoir report output/quickstart")
+    for directory in options.directories:
+        refuse_links(directory)
     runs = [Run(directory) for directory in options.directories]
     name_apart(runs)
     output = options.output or runs[0].directory / "report.html"
@@ -413,7 +416,7 @@ def main():
         raise InputError(f"summary.json of {', '.join(options.directories)} is not what this version writes ({type(error).__name__}: {error}). "
                          "Repeat the run.") from error
     try:
-        output.write_text(text, encoding="utf-8")
+        write_whole(output, text)
     except OSError as error:
         raise InputError(f"{output} cannot be written: {error.strerror}. Choose another file with --output.") from error
     print(f"Report    {output}")

@@ -11,7 +11,7 @@ from . import error_bars, tables
 from .errors import InputError
 from .picture import read_solution
 from .report_tables import MINUS, bar_words, html_table, items, number, verdict, with_unit
-from .runs import NotComputed, Skip
+from .runs import NotComputed, Skip, refuse_links
 
 # Dynamic tensile strength of dam concrete if the scene gives none [Pa]: a tenth of the dynamic compressive strength (DL 5073-2000), which
 # is 1.3 times the static one; 23 MPa give 3 MPa.
@@ -124,8 +124,10 @@ def validity(run, found):
                              ("contact_residual", max(1e-10, run.value("Contact/Tolerance")), "contact residual")):
         if isinstance(value := summary.get(key), (int, float)):
             (good if value <= limit else bad).append(f"{name} {number(value, '')} (limit {number(limit, '')})")
-    warnings = summary.get("warnings", [])
-    (bad if warnings else good).append(f"warnings of the program: {len(warnings) or 'none'}")
+    warnings = [escape(str(warning["text"]).partition(". ")[0].rstrip(".")) for warning in run.warnings if warning["class"] != "input"]
+    (bad if warnings else good).append(f"warnings of the program: {len(warnings)} ({'; '.join(warnings)})" if warnings else "warnings of the program: none")
+    if others := len(run.warnings) - len(warnings):
+        good.append(f"remarks on the input file: {others}")
     text = ("<b class=\"exceeded\">Not all checks are satisfied:</b> " if bad else "The computation passes its checks: ") + "; ".join(bad + good) + ". "
     try:
         text += accuracy_sentence(run)
@@ -157,6 +159,10 @@ def answers(run):
 def beside(run, command, file):
     """The file of `voussoir COMMAND --output` for the same scene: in RUN/COMMAND, or in SCENE-COMMAND beside RUN. Throws NotComputed."""
     if (found := error_bars.beside(run.directory, run.scene, command, file)) is not None:
+        try:
+            refuse_links(found.parent)
+        except InputError as error:
+            raise Skip(error) from error
         return found
     raise NotComputed(f"voussoir {command} {run.scene}.prm --output {run.directory.name}/{command}")
 
@@ -183,7 +189,7 @@ def modes_of(run):
     file = beside(run, "modes", "modes.csv")
     try:
         table = tables.read_table(file)
-        if not len(table["mode"]) or not all(np.isfinite(table[name]).all() for name in ("frequency", "share_x", "share_y", "share_z")):
+        if not len(table["mode"]) or not all(np.isfinite(table[name]).all() for name in ("mode", "frequency", "share_x", "share_y", "share_z")):
             raise ValueError("a value is not finite")
     except (InputError, KeyError, TypeError, ValueError) as error:
         raise Skip(f"{file} is not of voussoir modes ({error})") from error

@@ -25,17 +25,17 @@ def differs(run, entries):
 
 
 def needs_of(run):
-    """needs.json of the run's scene. Throws Skip."""
+    """Text, table (both HTML) and length of the motion [s] of needs.json of the run's scene. Throws Skip."""
     file = beside(run, "needs", "needs.json")
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
-        needs_table(found), smallest_sentence(found), float(found["seconds"])
+        shown = smallest_sentence(found), needs_table(found), float(found["seconds"])
         entry = differs(run, found["entries"])
-    except (AttributeError, KeyError, OSError, RecursionError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, LookupError, OSError, RecursionError, TypeError, ValueError) as error:
         raise Skip(f"{file} is not of voussoir needs ({type(error).__name__})") from error
     if entry is not None:
         raise Skip(f"{file} is of another version of the scene: {entry} differs")
-    return found
+    return shown
 
 
 def percent(change, counts):

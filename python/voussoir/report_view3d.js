@@ -140,7 +140,7 @@
       this.controls = new THREE.OrbitControls(this.camera, this.canvas);
       this.controls.enableKeys = false;
       this.controls.enableZoom = false; // until the reader has touched the view: the wheel moves the page
-      this.controls.addEventListener("change", () => this.draw());
+      this.controls.addEventListener("change", () => { this.keepInside(); this.draw(); });
       this.resize();
       this.look();
     }
@@ -165,10 +165,58 @@
         centre.add(right).add(point.clone().setFromMatrixColumn(this.camera.matrixWorld, 1).multiplyScalar((low[1] + high[1]) / 4 * height));
         distance *= Math.max((high[0] - low[0]) / 1.84, (high[1] - low[1]) / 1.5);
       }
+      this.distance = null; // until the camera has its place
       this.controls.target.copy(centre);
       this.camera.position.copy(back).multiplyScalar(distance).add(centre);
       this.controls.update();
+      Object.assign(this, {distance: distance, nearest: distance, zoom: 1, target: centre.clone()});
+      this.keepInside();
       this.draw();
+    }
+
+    // Middle and half of the way of each coordinate of the nodes over time, magnified.
+    reach() {
+      if (this.reached === this.factor) return;
+      this.reached = this.factor;
+      const n = 3 * this.n, scale = this.factor * this.data.unit;
+      const low = new Float32Array(n).fill(Infinity), high = new Float32Array(n).fill(-Infinity);
+      this.moved.forEach((u, k) => { low[k % n] = Math.min(low[k % n], u); high[k % n] = Math.max(high[k % n], u); });
+      this.mean = this.points.map((x, i) => x + scale * (low[i] + high[i]) / 2);
+      this.half = this.points.map((x, i) => scale * (high[i] - low[i]) / 2);
+    }
+
+    // Distance of the camera from its target at which all nodes are in the frame at all times.
+    needed() {
+      this.reach();
+      this.camera.updateMatrixWorld();
+      const tan = Math.tan(this.camera.fov / 360 * Math.PI), limits = [0.92 * tan * this.camera.aspect, 0.92 * tan];
+      const axes = [0, 1, 2].map((c) => new THREE.Vector3().setFromMatrixColumn(this.camera.matrixWorld, c).toArray()); // right, up, back
+      const target = this.controls.target.toArray();
+      let needed = 0;
+      for (let i = 0; i < 3 * this.n; i += 3) {
+        const at = [0, 0, 0], way = [0, 0, 0];
+        for (let a = 0; a < 3; ++a)
+          for (let c = 0; c < 3; ++c) {
+            at[a] += axes[a][c] * (this.mean[i + c] - target[c]);
+            way[a] += Math.abs(axes[a][c]) * this.half[i + c];
+          }
+        for (let a = 0; a < 2; ++a) needed = Math.max(needed, at[2] + way[2] + (Math.abs(at[a]) + way[a]) / limits[a]);
+      }
+      return needed;
+    }
+
+    // The camera goes back where the dam would leave the frame. A zoom or a shift by the reader remains.
+    keepInside() {
+      if (!this.distance) return;
+      const target = this.controls.target, back = this.camera.position.clone().sub(target), now = back.length();
+      const wanted = Math.max(this.nearest, this.needed());
+      if (Math.abs(now / this.distance - 1) > 1e-6 || target.distanceTo(this.target) > 1e-6 * this.size) this.zoom = now / wanted;
+      this.target.copy(target);
+      this.distance = this.zoom * wanted;
+      this.camera.position.copy(target).add(back.setLength(this.distance));
+      this.camera.near = Math.min(this.size / 50, this.distance / 50);
+      this.camera.far = Math.max(20 * this.size, 4 * this.distance);
+      this.camera.updateProjectionMatrix();
     }
 
     resize() {
@@ -177,6 +225,7 @@
       this.renderer.setSize(width, height);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
+      this.keepInside();
       this.draw();
     }
 
@@ -388,6 +437,7 @@
     magnify(factor) {
       this.model.factor = Number(factor.toPrecision(2));
       this.times.textContent = `\u00d7 ${this.model.factor}`;
+      this.model.keepInside();
       this.model.update();
       this.place();
     }

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A finished run for report and figures: tables as arrays, summary, and the entries of the scene."""
 
+import os
 import re
 from functools import cached_property
 from pathlib import Path
@@ -52,6 +53,20 @@ def with_new_names(summary):
     return {renamed.get(name, name): with_new_names(value) for name, value in summary.items() if renamed.get(name) not in summary}
 
 
+def refuse_links(directory):
+    """Throws InputError if a directory, which may be of another person, has a link that leads out of it, or a pipe or a device."""
+    root = Path(directory).resolve()
+    for folder, folders, files in os.walk(root):
+        for path in (Path(folder, name) for name in (*folders, *files)):
+            try:
+                target = path.resolve() if path.is_symlink() else path
+            except (OSError, RuntimeError):  # a circle of links
+                target = None
+            if target is None or not target.is_relative_to(root) or not (target.is_file() or target.is_dir()):
+                raise InputError(f"{Path(directory, path.relative_to(root))} is a link out of the directory, a pipe or a device. Remove it, or replace "
+                                 "it by a copy of the file if you trust its source.")
+
+
 class Run:
     """One finished run. Throws InputError for another directory, and Skip for a missing table."""
 
@@ -76,6 +91,11 @@ class Run:
     def moves(self):
         """True if the run has an earthquake, not only a static state."""
         return self.summary.get("steps", 1) != 0
+
+    @cached_property
+    def warnings(self):
+        """Warnings of the program: [{"class": "input" or "physics", "text", "place"}]. Texts of earlier versions count as physics."""
+        return [found if isinstance(found, dict) else {"class": "physics", "text": str(found), "place": ""} for found in self.summary.get("warnings", [])]
 
     def table(self, name, text_columns=()):
         return read_table(self.directory / name, text_columns)

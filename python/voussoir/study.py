@@ -18,12 +18,12 @@ from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-from .command import Parser, lock_directory
+from .command import Parser, lock_directory, write_whole
 from .errors import ComputationError, InputError
 from .prm import prm_text
 from .program import entries_of, find_program, message_of, start
 from .study_file import is_file_entry, read_study, value_in, with_paths
-from .study_scene import end_with_parent, record_of, revision_of, row_in_words, write_whole
+from .study_scene import end_with_parent, record_of, revision_of, row_in_words
 
 PLAIN_NUMBER = re.compile(r"[-+]?[0-9]+(\.[0-9]*)?(e[-+]?[0-9]+)?")
 SNAKEFILE = """# Written by `voussoir study`, which runs it, and gathers the results when all scenes are done.

@@ -15,6 +15,7 @@ import subprocess
 import time
 from pathlib import Path
 
+from .command import write_whole
 from .errors import InputError
 from .program import message_of
 from .results import read_summary
@@ -26,13 +27,6 @@ def end_with_parent(number=signal.SIGTERM):
         ctypes.CDLL(None).prctl(1, int(number))
     except (OSError, AttributeError):
         pass  # elsewhere the next study waits for what still runs
-
-
-def write_whole(path, text):
-    """The file has either what it had or all of the text."""
-    new = path.with_name(path.name + ".new")
-    new.write_text(text)
-    os.replace(new, path)
 
 
 def record_of(directory, name):

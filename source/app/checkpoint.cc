@@ -82,13 +82,17 @@ namespace Voussoir
     {
       save(run, observers, counters);
       return " The state after step " + std::to_string(run.step) + " of " + std::to_string(run.n_steps) +
-             " is kept in " + file + ". Free disk space or remove the obstacle, then continue with --resume.";
+             " is kept in " + file + ". Remove the cause of the error, then continue with --resume.";
     }
     catch (const WriteError &)
     {
-      return std::filesystem::exists(file)
-                 ? " The checkpoint could not be written either. The previous "
-                   "checkpoint is intact. Free disk space, then continue with --resume."
+      if (!std::filesystem::is_directory(directory))
+        return " The output directory " + directory +
+               " no longer exists. If it was renamed and has a checkpoint, continue this with --resume and its new name "
+               "as --output. Otherwise start the run again.";
+      return exists()
+                 ? " The checkpoint could not be written either. The previous checkpoint is intact. Free disk "
+                   "space, then continue with --resume."
                  : " The checkpoint could not be written either. Free disk space, then start the run again.";
     }
   }

@@ -179,8 +179,8 @@ namespace Voussoir
           std::cout << "The load combination multiplies this motion by " << factor
                     << " (Loads/Combination). These numbers do not include the factor.\n";
       }
-      for (const std::string &warning : scene.warnings) // an error would come first
-        std::cerr << "voussoir: warning: " << warning << "\n";
+      for (const Warning &warning : scene.warnings) // an error would come first
+        std::cerr << "voussoir: warning: " << warning.text << "\n";
     }
 
     /** Returns the optional parts of this program. */

@@ -57,8 +57,8 @@ namespace Voussoir
           {"--output", "DIR",
            "directory for mode shapes, participation factors, effective masses and a picture"},
           {"--spectrum", "design|FILE.csv",
-           "also print the response to a spectrum (CQC): that of section Motion, or a table of period [s], "
-           "acceleration [m/s^2]"},
+           "also print the response to a spectrum (CQC): that of section Motion, or a table as for Motion/Target "
+           "spectrum, in the unit of its headings"},
           {"--json", "", "print frequencies, participation factors and effective masses as a JSON object"},
           overrides}},
         {"new",

@@ -145,15 +145,17 @@ namespace Voussoir
       for (std::size_t k = 0; k < modes.size(); ++k)
         modes[k].add("damping",
                      damping.ratio(k) + (radiation.empty() || std::isnan(radiation[k]) ? 0. : radiation[k]));
-      std::vector<std::string> warnings = dam.mesh_warnings;
+      std::vector<Warning> warnings;
+      for (const std::string &warning : dam.mesh_warnings)
+        warnings.push_back({Warning::Kind::physics, warning, ""});
       warnings.insert(warnings.end(), dam.scene.warnings.begin(), dam.scene.warnings.end());
       if (const std::string warning = damping.warning(); !warning.empty())
-        warnings.push_back(warning);
+        warnings.push_back({Warning::Kind::physics, warning, ""});
       Json json;
       json.add("scene", dam.scene.name)
           .add_list("free_mass", free_mass(dam.structure))
           .add("modes", modes)
-          .add_texts("warnings", warnings);
+          .add("warnings", warnings);
       return json;
     }
   } // namespace

@@ -86,9 +86,12 @@ namespace Voussoir
       }
       const ArchRockParameters *rock = scene.mesh.generated_rock();
       if (rock != nullptr && rock->enabled && !dam.foundation->uses_rock())
-        log.line("warning: the rock of %s/Rock is ignored: Foundation/Model is rigid. Set "
-                 "Foundation/Model to rock or massless, or %s/Rock/Enabled to false.",
-                 scene.mesh.section().c_str(), scene.mesh.section().c_str());
+        log.warn(
+            {Warning::Kind::input,
+             "the rock of " + scene.mesh.section() +
+                 "/Rock is ignored: Foundation/Model is rigid. Set Foundation/Model to rock or massless, or " +
+                 scene.mesh.section() + "/Rock/Enabled to false.",
+             scene.mesh.section() + "/Rock"});
       if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0. && !dam.has_water)
         log.line(
             "warning: the water does not reach the dam: Reservoir/Water level is %g m, below the upstream "
@@ -96,8 +99,10 @@ namespace Voussoir
             scene.reservoir.level);
       const auto &crest = dam.geometry->joints;
       if (dam.n_joints > 1 && crest.front().arc_length > crest[dam.n_joints - 1].arc_length)
-        log.line("warning: the joints are numbered from the left bank (y > 0) to the right bank, also in "
-                 "Joints/Overrides and in all results. Usually the numbers begin at the right bank.");
+        log.warn({Warning::Kind::input,
+                  "the joints are numbered from the left bank (y > 0) to the right bank, also in "
+                  "Joints/Overrides and in all results. Usually the numbers begin at the right bank.",
+                  "Mesh/File"});
       if (scene.mesh.source == "file" && !dam.ungrouped.empty())
         log.line("warning: %s", dam.ungrouped.c_str());
       for (const std::string &warning : dam.mesh_warnings)
@@ -105,15 +110,15 @@ namespace Voussoir
       if (!scene.statics.stages.empty())
         for (const std::string &warning : StaticPath(dam).warnings())
           log.line("warning: %s", warning.c_str());
-      for (const std::string &warning : scene.warnings)
-        log.line("warning: %s", warning.c_str());
+      for (const Warning &warning : scene.warnings)
+        log.warn(warning);
     }
 
     /** Prints the corrections of records, and a warning about motion that remains at the end. */
     void report_motion_notes(const RunState &run, Log &log)
     {
       for (const std::string &note : run.motion.notes)
-        log.line("Records   %s", note.c_str());
+        log.line("%s%s", note.rfind("warning: ", 0) == 0 ? "" : "Records   ", note.c_str());
       MotionParameters any = run.scene().motion;
       any.source = "none"; // without the errors of the spectrum
       if (const std::string warning = end_warning(report_motion(run.motion, any));

@@ -189,12 +189,12 @@ namespace Voussoir
     }
     std::map<std::string, WrittenEntry>                        written; // the last value is used
     std::map<std::pair<std::string, std::size_t>, std::string> places;  // by entry and file
-    std::vector<std::string>                                   warnings;
+    std::vector<Warning>                                       warnings;
     for (Entry &entry : entries)
     {
       if (const auto gone = removed.find(joined(entry.path)); gone != removed.end())
       {
-        warnings.push_back(entry.place + ": entry \"" + gone->first + "\" " + gone->second);
+        warnings.push_back({Warning::Kind::input, "entry \"" + gone->first + "\" " + gone->second, entry.place});
         continue;
       }
       const DeclaredEntry &declared = declaration(known, entry);
@@ -202,8 +202,10 @@ namespace Voussoir
       written[declared.name()] = {declared, entry.value, entry.place};
       std::string &before = places[{declared.name(), entry.text}];
       if (!before.empty() && entry.text != Entry::no_number)
-        warnings.push_back(declared.name() + " is in the file twice, " + before + " and " + entry.place +
-                           ": the last value is used, " + entry.value + ". Remove one of them.");
+        warnings.push_back({Warning::Kind::input,
+                         declared.name() + " is in the file twice, " + before + " and " + entry.place +
+                             ": the last value is used, " + entry.value + ". Remove one of them.",
+                         entry.place});
       before = entry.place;
     }
     scene.check();

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/scene_ranges.h>
+#include <voussoir/base/curve_file.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
+#include <voussoir/base/units.h>
 #include <voussoir/dam/temperature.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <map>
 #include <sstream>
 
@@ -21,9 +26,9 @@ namespace Voussoir
   {
     const auto   found = usual.find(used.range);
     const double value = used.value;
-    if (found == usual.end())
+    if (found == usual.end() && used.of_list == nullptr)
       return "";
-    const UsualRange &range = found->second;
+    const UsualRange &range = used.of_list != nullptr ? *used.of_list : found->second;
     if ((value >= range.low && value <= range.high) || (range.or_zero && value == 0.))
       return "";
     const std::string  unit = used.unit == "-" ? "" : " " + used.unit;
@@ -41,7 +46,7 @@ namespace Voussoir
   {
     const std::string name = entry.declared.name();
     return {name + " (" + entry.place + ")", name, entry.declared.unit(),
-            std::strtod(entry.value.c_str(), nullptr)};
+            std::strtod(entry.value.c_str(), nullptr), entry.place};
   }
 
   namespace
@@ -53,10 +58,13 @@ namespace Voussoir
       for (const auto &[zone, material] : zones)
       {
         const std::string of = section + "/Zones: zone " + zone + ", ";
-        values.push_back({of + "Young's modulus", section + "/Young's modulus", "Pa", material.young});
-        values.push_back({of + "Poisson's ratio", section + "/Poisson's ratio", "-", material.poisson});
+        values.push_back(
+            {of + "Young's modulus", section + "/Young's modulus", "Pa", material.young, section + "/Zones"});
+        values.push_back({of + "Poisson's ratio", section + "/Poisson's ratio", "-", material.poisson,
+                          section + "/Zones"});
         if (has_mass)
-          values.push_back({of + "the density", section + "/Density", "kg/m^3", material.density});
+          values.push_back(
+              {of + "the density", section + "/Density", "kg/m^3", material.density, section + "/Zones"});
       }
     }
 
@@ -84,10 +92,83 @@ namespace Voussoir
         {
           std::ostringstream what;
           what << "Loads/Temperature/Table (" << temperature.table << "): " << faces[i] << " on day " << day;
-          values.push_back({what.str(), std::string("Loads/Temperature/") + faces[i], "degC", value});
+          values.push_back(
+              {what.str(), std::string("Loads/Temperature/") + faces[i], "degC", value, temperature.table});
         }
       }
     }
+  } // namespace
+
+  namespace
+  {
+    using NamedValues = std::vector<std::pair<std::string, double>>; // text after the entry, value
+
+    NamedValues gaps(const Scene &scene)
+    {
+      NamedValues values;
+      for (const auto &[joint, gap] : scene.joints.gaps)
+        values.emplace_back(joint, number_in_unit(gap, "m", "Joints/Initial gaps"));
+      return values;
+    }
+
+    NamedValues widths_of_cuts(const Scene &scene)
+    {
+      NamedValues values;
+      for (const StaticStage &stage : static_stages(scene.statics.stages))
+        if (stage.kind == StaticStage::Kind::cut)
+          values.emplace_back("width of the cut of " + stage.joint, stage.value);
+      return values;
+    }
+
+    NamedValues pressures_of_grout(const Scene &scene)
+    {
+      NamedValues values;
+      for (const StaticStage &stage : static_stages(scene.statics.stages))
+        if (stage.kind == StaticStage::Kind::grout)
+          values.emplace_back("pressure of grout " + number_text(stage.value), stage.pressure);
+      return values;
+    }
+
+    NamedValues crest_line(const Scene &scene)
+    {
+      const Vector3 q = scene.loads.line_load();
+      return {{"the force per length", std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2])}};
+    }
+
+    NamedValues concentrated_forces(const Scene &scene)
+    {
+      NamedValues values;
+      for (const auto &[name, load] : scene.loads.point_loads())
+        values.emplace_back(name, std::sqrt(load.force[0] * load.force[0] + load.force[1] * load.force[1] +
+                                            load.force[2] * load.force[2]));
+      return values;
+    }
+
+    NamedValues largest_added_mass(const Scene &scene)
+    {
+      if (scene.reservoir.model != "added mass table")
+        return {};
+      const std::string file =
+          (std::filesystem::path(scene.reservoir.directory) / scene.reservoir.table).string();
+      const Curve curve = read_curve(file, {"Reservoir/Table, ", "depth", "depths", "[m]", "added mass", ""});
+      return {{"largest added mass of " + scene.reservoir.table,
+               *std::max_element(curve.y.begin(), curve.y.end())}};
+    }
+
+    /** Usual ranges of numbers in lists and tables. */
+    struct ListedNumbers
+    {
+      const char *entry, *unit;
+      UsualRange  range;
+      NamedValues (*values)(const Scene &); ///< may throw InputError
+    };
+    const std::vector<ListedNumbers> listed_numbers = {
+        {"Joints/Initial gaps", "m", {1e-5, .05, true}, gaps},
+        {"Statics/Stages", "m", {1e-5, .2}, widths_of_cuts},
+        {"Statics/Stages", "Pa", {1e4, 5e6, true}, pressures_of_grout},
+        {"Loads/Crest line", "N/m", {1e3, 5e6, true}, crest_line},
+        {"Loads/Concentrated", "N", {1e3, 1e9, true}, concentrated_forces},
+        {"Reservoir/Table", "kg/m^2", {1e3, 1e6}, largest_added_mass}};
   } // namespace
 
   std::vector<UsedValue> values_of_sources(const Scene &scene)
@@ -97,6 +178,16 @@ namespace Voussoir
     add_materials(zone_materials(scene.concrete_zones, "Concrete/Zones"), "Concrete", true, values);
     if (foundation.model != "rigid")
       add_materials(foundation.zone_materials(), "Foundation", foundation.model == "rock", values);
+    for (const ListedNumbers &row : listed_numbers)
+      try
+      {
+        for (const auto &[name, value] : row.values(scene))
+          values.push_back(
+              {std::string(row.entry) + ": " + name, row.entry, row.unit, value, row.entry, &row.range});
+      }
+      catch (const InputError &) // reported where the numbers are used
+      {
+      }
     try
     {
       if (!scene.loads.temperature.table.empty() && scene.loads.factor("temperature") != 0.)

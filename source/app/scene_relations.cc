@@ -149,20 +149,25 @@ namespace Voussoir
     }
   } // namespace
 
-  std::vector<std::string> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries)
+  std::vector<Warning> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries)
   {
-    std::vector<std::string> warnings = {
+    std::vector<std::string> texts = {
         rare_envelopes(scene),    level_of_another_dam(scene, entries), other_day(scene),
         odd_factors(scene.loads), undefined_loads(scene, entries),      stiff_sustained(scene)};
-    add_levels_above_the_reservoir(scene, warnings);
+    add_levels_above_the_reservoir(scene, texts);
+    if (!is_written(entries, "Motion/Unit"))
+      texts.push_back(unit_warning(scene.motion, scene.directory));
+    add_law_warnings(scene, texts);
+    std::vector<Warning> warnings;
+    for (const std::string &text : texts)
+      if (!text.empty())
+        warnings.push_back({Warning::Kind::physics, text, ""});
     if (scene.reservoir.kind() != scene.reservoir.model)
       warnings.push_back(
-          "Reservoir/Added mass is an entry of older versions. Replace it by Reservoir/Model = " +
-          scene.reservoir.kind() + ".");
-    if (!is_written(entries, "Motion/Unit"))
-      warnings.push_back(unit_warning(scene.motion, scene.directory));
-    add_law_warnings(scene, warnings);
-    warnings.erase(std::remove(warnings.begin(), warnings.end(), ""), warnings.end());
+          {Warning::Kind::input,
+           "Reservoir/Added mass is an entry of older versions. Replace it by Reservoir/Model = " +
+               scene.reservoir.kind() + ".",
+           "Reservoir/Added mass"});
     return warnings;
   }
 } // namespace Voussoir

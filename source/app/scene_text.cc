@@ -58,7 +58,7 @@ namespace Voussoir
     if (value.find('#') != std::string::npos)
       throw InputError("An input file cannot contain \"#\" in \"" + value + "\". Rename the file.");
     const std::string converted = set_entry(prm, declared, value, "\"" + name + "\"");
-    const UsedValue   used = {name, name, declared.unit(), std::strtod(converted.c_str(), nullptr)};
+    const UsedValue   used = {name, name, declared.unit(), std::strtod(converted.c_str(), nullptr), ""};
     if (const std::string warning = implausible(used, prm.usual_ranges()); !warning.empty())
       throw InputError(warning);
     values[name] = value;

@@ -174,10 +174,10 @@ namespace Voussoir
     }
   } // namespace
 
-  std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries,
-                                          const UsualRanges &usual)
+  std::vector<Warning> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries,
+                                      const UsualRanges &usual)
   {
-    std::vector<std::string>                                               warnings;
+    std::vector<Warning>                                                   warnings;
     std::vector<std::pair<std::string, std::vector<const WrittenEntry *>>> idle; // by reason
     std::vector<UsedValue>                                                 values = values_of_sources(scene);
     for (const WrittenEntry &entry : entries)
@@ -197,10 +197,10 @@ namespace Voussoir
     }
     for (const UsedValue &value : values)
       if (const std::string warning = implausible(value, usual); !warning.empty())
-        warnings.push_back(warning);
+        warnings.push_back({Warning::Kind::physics, warning, value.place});
     for (const auto &[reason, without] : idle)
-      warnings.push_back(without_effect(without, reason));
-    for (const std::string &warning : odd_relations(scene, entries))
+      warnings.push_back({Warning::Kind::input, without_effect(without, reason), without.front()->place});
+    for (const Warning &warning : odd_relations(scene, entries))
       warnings.push_back(warning);
     return warnings;
   }

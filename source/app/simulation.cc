@@ -144,8 +144,8 @@ namespace Voussoir
     if (!Ranks::is_first())
       return;
     if (options.quiet || options.json)
-      for (const std::string &warning : log.warnings())
-        std::cerr << "voussoir: warning: " << warning << '\n';
+      for (const Warning &warning : log.warnings())
+        std::cerr << "voussoir: warning: " << warning.text << '\n';
     if (options.json)
       std::cout << json_of_setup(state, log).text() << '\n';
   }
@@ -191,6 +191,7 @@ namespace Voussoir
     write_tables_of_start(state, directory);
     for (Observer *observer : *observers)
       observer->open(directory);
+    run_directory.expect_tables();
     if (!options.resume)
       record();
   }
@@ -340,7 +341,7 @@ namespace Voussoir
     for (Observer *observer : *observers)
       observer->finish(directory, log);
     counters.output += watch.seconds();
-    write_summary(directory, state, *observers, counters, ranks, log);
+    report_limits(state, *observers, log);
     for (const Observer *observer : *observers)
       observer->report(log);
     if (state.n_steps > 0)
@@ -350,7 +351,9 @@ namespace Voussoir
              largest_balance_error);
     for (const Neighbour *neighbour : state.dam->neighbours)
       neighbour->report_balance(log);
-    checkpoint.remove(); // the run is complete
+    run_directory.expect_tables();
+    write_summary(directory, state, *observers, counters, ranks, log); // with all warnings
+    checkpoint.remove();                                               // the run is complete
     if (state.n_steps > 0)
       report_error_bars(scene, directory, log);
     if (scene.output.figures)

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 
 namespace Voussoir
@@ -209,14 +210,27 @@ namespace Voussoir
     {
       if (choice != "design")
       {
-        const SpectrumTable table = read_spectrum(choice);
+        if (!std::filesystem::is_regular_file(choice))
+          throw InputError("--spectrum " + choice +
+                           ": this file cannot be read. Give --spectrum design, or the path of "
+                           "a table with the columns period [s] and acceleration [m/s^2].");
+        const SpectrumTable table =
+            read_spectrum(choice, "", scene.motion.vertical_ratio, {SpectrumTable::rigid_period, .1});
+        if (const double peak = table.at(0, 0.); !table.states_unit && peak < 1.)
+          warn(
+              "the peak ground acceleration of " + choice + " is " + number_text(peak) +
+              " m/s^2, because the file has no headings with a unit. If it is in g, add the headings \"period [s], "
+              "acceleration [g]\".");
+        const double last = table.periods.back();
         return {choice, scene.damping.ratio,
-                [table](const double period)
+                [=](const double period)
                 {
-                  const double a = table.at(period);
-                  return Vector3{{a, a, a}};
+                  if (period > last)
+                    throw InputError("The spectrum " + choice + " ends at the period " + number_text(last) +
+                                     " s, but a mode has " + number_text(period) + " s. Extend the table.");
+                  return Vector3{{table.at(0, period), table.at(1, period), table.at(2, period)}};
                 },
-                std::min(table.curve.x.back(), MotionCriteria::last_period)};
+                std::min(last, MotionCriteria::last_period)};
       }
       const MotionParameters &motion = scene.motion;
       if (motion.source != "artificial")

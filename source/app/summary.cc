@@ -202,12 +202,18 @@ namespace Voussoir
       json.add("motion", json_of_motion(run)).add_texts("motion_notes", run.motion.notes);
     json.add("steps", run.n_steps).add("time_step", run.motion.dt);
     dam.foundation->add_to_summary(json, run.grid());
-    json.add("memory_bytes", json_of_memory(scene)).add_texts("warnings", log.warnings());
+    json.add("memory_bytes", json_of_memory(scene)).add("warnings", log.warnings());
     return json;
   }
 
+  void report_limits(const RunState &run, const RunObservers &observers, Log &log)
+  {
+    if (const std::string words = assessment_of(run, observers).in_words(); !words.empty())
+      log.line("Limits    %s", words.c_str());
+  }
+
   void write_summary(const std::string &directory, const RunState &run, const RunObservers &observers,
-                     const RunCounters &counters, const RankCounters &ranks, Log &log)
+                     const RunCounters &counters, const RankCounters &ranks, const Log &log)
   {
     const Dam       &dam = *run.dam;
     const Scene     &scene = run.scene();
@@ -247,13 +253,11 @@ namespace Voussoir
       summary.add("blocks", observers.blocks->blocks.json());
     if (observers.wedges)
       summary.add("wedges", observers.wedges->json());
-    summary.add_texts("warnings", log.warnings());
+    summary.add("warnings", log.warnings());
     summary.add("per_rank", ranks.json());
     if (observers.stresses.is_recording() && scene.strength_of_area() > 0.)
       summary.add("tension_above_strength", observers.stresses.json_of_strength());
     dam.foundation->add_to_summary(summary, run.grid());
-    if (!assessment.in_words().empty())
-      log.line("Limits    %s", assessment.in_words().c_str());
     OutputFile out(directory + "/summary.json");
     out << summary.text() << "\n";
     out.check();

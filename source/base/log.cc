@@ -27,8 +27,9 @@ namespace Voussoir
     buffer.pop_back();
     const std::string sign = "warning: ";
     if (buffer.compare(0, sign.size(), sign) == 0 &&
-        std::find(warned.begin(), warned.end(), buffer.substr(sign.size())) == warned.end())
-      warned.push_back(buffer.substr(sign.size()));
+        std::none_of(warned.begin(), warned.end(),
+                     [&](const Warning &other) { return buffer.substr(sign.size()) == other.text; }))
+      warned.push_back({Warning::Kind::physics, buffer.substr(sign.size()), ""});
     if (!quiet)
     {
       std::printf("%s\n", buffer.c_str());
@@ -41,6 +42,14 @@ namespace Voussoir
     }
     else
       early += buffer + "\n";
+  }
+
+  void Log::warn(const Warning &warning)
+  {
+    const std::size_t before = warned.size();
+    line("warning: %s", warning.text.c_str());
+    if (warned.size() > before)
+      warned.back() = warning;
   }
 
   std::string clock_time(const double seconds)
@@ -139,6 +148,17 @@ namespace Voussoir
     for (const Json &object : objects)
       list += (list.empty() ? "" : ", ") + object.text();
     return add_raw(key, "[" + list + "]");
+  }
+
+  Json &Json::add(const std::string &key, const std::vector<Warning> &warnings)
+  {
+    std::vector<Json> objects;
+    for (const Warning &warning : warnings)
+      objects.push_back(Json()
+                            .add("class", warning.kind == Warning::Kind::input ? "input" : "physics")
+                            .add("text", warning.text)
+                            .add("place", warning.place));
+    return add(key, objects);
   }
 
   std::string Json::text() const

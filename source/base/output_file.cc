@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <sys/stat.h>
 
 namespace Voussoir
 {
@@ -25,5 +26,10 @@ namespace Voussoir
     errno = 0;
     if (!flush())
       throw WriteError::of(name);
+    // The number of a file is no criterion: some network file systems change it.
+    struct stat found = {};
+    if (stat(name.c_str(), &found) != 0 || (S_ISREG(found.st_mode) && found.st_size < tellp()))
+      throw WriteError("The file " + name +
+                       " was removed or replaced, or its directory renamed, while the program wrote it.");
   }
 } // namespace Voussoir

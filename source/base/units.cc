@@ -56,6 +56,7 @@ namespace Voussoir
         {"cm/s^2", "acceleration", 1e-2},
         {"mm/s^2", "acceleration", 1e-3},
         {"gal", "acceleration", 1e-2},
+        {"Gal", "acceleration", 1e-2},
         {"g", "acceleration", standard_gravity},
         {"ft/s^2", "acceleration", foot},
         {"m/s", "velocity", 1.},
@@ -88,13 +89,17 @@ namespace Voussoir
         {"-", "ratio", 1.},
     };
 
-    /** "kg / m³" -> "kg/m^3", "kg/m3" -> "kg/m^3" */
+    /** "kg / m³" -> "kg/m^3", "kg/m3" -> "kg/m^3", "cm/sec/sec" -> "cm/s^2" */
     std::string spelled(std::string text)
     {
       text.erase(std::remove(text.begin(), text.end(), ' '), text.end());
-      for (const auto &power : {std::pair<const char *, const char *>{"\u00b2", "2"}, {"\u00b3", "3"}})
-        for (std::size_t at; (at = text.find(power.first)) != std::string::npos;)
-          text.replace(at, std::string(power.first).size(), power.second);
+      for (const auto &other : {std::pair<const char *, const char *>{"\u00b2", "2"},
+                                {"\u00b3", "3"},
+                                {"sec", "s"},
+                                {"s/s", "s2"},
+                                {"gals", "gal"}})
+        for (std::size_t at; (at = text.find(other.first)) != std::string::npos;)
+          text.replace(at, std::string(other.first).size(), other.second);
       const auto n = text.size();
       if (n > 1 && (text[n - 1] == '2' || text[n - 1] == '3') &&
           std::isalpha(static_cast<unsigned char>(text[n - 2])))
@@ -119,6 +124,31 @@ namespace Voussoir
       return list;
     }
   } // namespace
+
+  std::string unit_name(const std::string &text, const std::string &dimension)
+  {
+    const Unit *const unit = find_unit(text);
+    if (unit == nullptr || dimension != unit->dimension)
+      return "";
+    const auto first = std::find_if(units.begin(), units.end(),
+                                    [&](const Unit &other)
+                                    { return dimension == other.dimension && other.factor == unit->factor; });
+    return first->name;
+  }
+
+  std::string unit_choices(const std::string &dimension)
+  {
+    std::string choices;
+    for (const Unit &unit : units)
+      if (dimension == unit.dimension)
+      {
+        std::string name = unit.name;
+        choices += (choices.empty() ? "" : "|") + name;
+        if (const auto power = name.find('^'); power != std::string::npos)
+          choices += "|" + name.erase(power, 1);
+      }
+    return choices;
+  }
 
   std::string in_declared_unit(const std::string &value, const std::string &declared, const std::string &what)
   {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/output_file.h>
+#include <voussoir/base/units.h>
 #include <voussoir/motion/ground_motion.h>
 
 #include <iomanip>
@@ -107,7 +108,7 @@ namespace Voussoir
 
   double unit_of_acceleration(const std::string &unit)
   {
-    return unit == "g" ? standard_gravity : unit == "cm/s^2" ? 0.01 : 1.;
+    return number_in_unit("1 " + unit, "m/s^2", "Motion/Unit");
   }
 
   void write_motion(const GroundMotion &motion, const std::string &file)

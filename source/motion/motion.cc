@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_artificial.h>
 #include <voussoir/motion/motion_files.h>
@@ -31,9 +32,10 @@ namespace Voussoir
           }
     }
 
-    /** Returns one record or one artificial motion, with all factors. @p is_alone: no rest and no other part. */
+    /** Returns one record or one artificial motion, with all factors. @p is_alone: no rest and no other part.
+     * @p begin: of a record, see read_motion() [s]. */
     GroundMotion make_part(const MotionParameters &parameters, const std::string &scene_directory,
-                           const bool is_alone)
+                           const bool is_alone, const double begin = 0.)
     {
       GroundMotion          motion;
       const bool            artificial = parameters.source == "artificial";
@@ -49,7 +51,7 @@ namespace Voussoir
       {
         MotionParameters as_read = parameters;
         as_read.factor = parameters.match ? 1. : parameters.factor;
-        motion = read_motion(as_read, scene_directory);
+        motion = read_motion(as_read, scene_directory, begin);
         process_record(motion, parameters, factors, !is_alone);
       }
       for (auto &sample : motion.acceleration)
@@ -99,14 +101,21 @@ namespace Voussoir
           motion.notes.push_back(parameters.sequence.empty() ? note : part.name_of_part() + ": " + note);
       }
       append_rest(motion, std::lround(parameters.rest_length() / motion.dt));
+      if (parameters.source == "artificial" && !parameters.duration_is_automatic())
+        motion.notes.push_back(
+            "an artificial motion of another Motion/Duration is another motion, also in its "
+            "first seconds; to shorten this one, write it with `voussoir motion`, and set "
+            "Motion/Source = file");
       add_times(motion);
       return motion;
     }
-    /** Returns the largest and the last displacement of a motion relative to the base in words. */
-    std::string relative_displacement(const GroundMotion &relative)
+    /** Adds a note about the displacement of a station relative to the base, and a warning if it does not end.
+     * @p name: of the station */
+    void add_relative_displacement(const GroundMotion &relative, const std::string &name,
+                                   GroundMotion &motion)
     {
       const auto         displacement = relative.integrated().displacement;
-      std::ostringstream text;
+      std::ostringstream text, warning;
       double             all = 0., end = 0.;
       for (unsigned int c = 0; c < 3; ++c)
       {
@@ -117,28 +126,66 @@ namespace Voussoir
              << "xyz"[c];
         all = std::max(all, largest), end = std::max(end, std::abs(displacement.back()[c]));
       }
+      motion.notes.push_back(name + text.str());
+      warning
+          << "warning: " << name << "at the end a displacement of " << 1e3 * end
+          << " mm relative to the base remains. It strains the dam. If it is an error of the records, correct "
+             "the baseline (Motion/Baseline).";
       if (end > MotionCriteria::end_displacement * all)
-        text << ". warning: at the end " << 1e3 * end
-             << " mm remain. They strain the dam. If they are an error of the records, correct the baseline "
-                "(Motion/Baseline)";
-      return text.str();
+        motion.notes.push_back(warning.str());
+    }
+
+    /** Returns the record of a station at the times of the motion, whose own record has the times @p of_base.
+     * It is zero before the first time of its record. */
+    GroundMotion record_of(StationParameters &station, const std::string &scene_directory,
+                           const GroundMotion &motion, const RecordTimes &of_base, const bool is_alone)
+    {
+      const RecordTimes  times = record_times(station.record, scene_directory);
+      const double       delay = times.first - of_base.first, end = of_base.first + motion.parts[0].end;
+      const double       n_before = std::ceil(delay / motion.dt - 1e-4);
+      std::ostringstream message;
+      if (delay < -1e-6)
+        message << "begins at " << times.first
+                << " s, before the motion of the lowest base node, which begins at " << of_base.first
+                << " s. Cut the record there, or add zeros at the beginning of Motion/File.";
+      else if (times.last < end - .01 * motion.dt)
+        message << "ends at " << times.last << " s, before the motion of the lowest base node, which ends at "
+                << end << " s. Set Motion/Duration to at most " << times.last - of_base.first
+                << " s (a multiple of Time step), or give a longer record.";
+      else if (n_before * motion.dt > motion.parts[0].end - motion.dt)
+        message << "begins at " << times.first << " s, after the end of the motion at " << end
+                << " s. Correct its times.";
+      if (message.tellp() > 0)
+        throw InputError("Motion/Abutments: the record " + station.record.name_of_part() + " of \"" +
+                         station.name + "\" " + message.str());
+      station.record.duration = motion.parts[0].end - n_before * motion.dt;
+      GroundMotion record =
+          make_part(station.record, scene_directory, is_alone, std::max(n_before * motion.dt - delay, 0.));
+      record.acceleration.insert(record.acceleration.begin(), n_before, {{0., 0., 0.}});
+      if (n_before > 0.)
+        record.notes.push_back("begins " + number_text(delay) +
+                               " s after the motion of the lowest base node");
+      return record;
     }
 
     /** Adds the records of the stations, with the same length as the motion, and notes. */
     void add_stations(const MotionParameters &parameters, const std::string &scene_directory,
                       GroundMotion &motion)
     {
+      if (parameters.abutments.empty())
+        return;
+      const RecordTimes of_base = record_times(parameters, scene_directory);
       for (StationParameters &station : parameters.stations())
       {
-        station.record.duration = motion.parts[0].end;
-        GroundMotion record = make_part(station.record, scene_directory, parameters.rest_length() == 0.);
+        GroundMotion record =
+            record_of(station, scene_directory, motion, of_base, parameters.rest_length() == 0.);
         check_samples(record);
         record.acceleration.resize(motion.acceleration.size(), {{0., 0., 0.}});
         motion.stations.push_back({station.is_left, station.height, record.acceleration});
         const std::string name = "station " + station.name + " m, " + station.record.name_of_part() + ": ";
         for (const std::string &note : record.notes)
           motion.notes.push_back(name + note);
-        motion.notes.push_back(name + relative_displacement(motion.relative(motion.stations.back())));
+        add_relative_displacement(motion.relative(motion.stations.back()), name, motion);
       }
     }
   } // namespace

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/units.h>
 #include <voussoir/motion/motion_files.h>
 #include <voussoir/motion/motion_record.h>
 #include <voussoir/motion/resample.h>
@@ -28,7 +29,8 @@ namespace Voussoir
       {
         const std::string path = (std::filesystem::path(scene_directory) / name).string();
         sources.push_back({path, first, read_motion_record(path, n_components)});
-        if (const std::string unit = sources.back().record.unit; !unit.empty() && unit != parameters.unit)
+        if (const std::string unit = sources.back().record.unit;
+            !unit.empty() && unit != unit_name(parameters.unit, "acceleration"))
           throw InputError("The ground motion file '" + name + "' has headings with the unit " + unit +
                            ", but Motion/Unit is " + parameters.unit + ". Set Motion/Unit = " + unit +
                            ", or correct the headings.");
@@ -87,7 +89,17 @@ namespace Voussoir
     }
   } // namespace
 
-  GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory)
+  RecordTimes record_times(const MotionParameters &parameters, const std::string &scene_directory)
+  {
+    const std::vector<Source> sources = read_sources(parameters, scene_directory);
+    RecordTimes               times = {sources.front().record.start, HUGE_VAL};
+    for (const Source &source : sources)
+      times.last = std::min(times.last, times.first + source.record.duration());
+    return times;
+  }
+
+  GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory,
+                           const double begin)
   {
     const std::vector<Source> sources = read_sources(parameters, scene_directory);
     GroundMotion              motion;
@@ -101,7 +113,7 @@ namespace Voussoir
       for (std::size_t c = 0; c < record.components.size(); ++c)
       {
         const std::vector<double> a =
-            resample(record.components[c], record.dt, motion.dt, motion.acceleration.size());
+            resample(record.components[c], record.dt, motion.dt, motion.acceleration.size(), begin);
         for (std::size_t k = 0; k < a.size(); ++k)
           motion.acceleration[k][source.first + c] = factor * a[k];
       }

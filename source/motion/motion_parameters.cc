@@ -2,6 +2,7 @@
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/model_choices.h>
+#include <voussoir/base/units.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/motion/motion_parameters.h>
 
@@ -30,7 +31,7 @@ namespace Voussoir
     prm.add_parameter(
         "Duration", duration,
         "Length of the ground motion and of the run, or of each part of Sequence [s]. Longer records are cut. Shorter records are an "
-        "error. -1: length of the shortest record, or 20.48 s for an artificial motion. On rock, -1 extends "
+        "error. An artificial motion of another length is another motion. -1: length of the shortest record, or 20.48 s for an artificial motion. On rock, -1 extends "
         "the run by the travel time of the waves to the base of the dam, in whole time steps of the motion.",
         {0., 300.});
     prm.add_parameter(
@@ -93,13 +94,14 @@ namespace Voussoir
         "of the station. FILES: one file as in File, or three files for x, y, z, separated by commas. File, or "
         "File x, y, z, is then the motion at the lowest base node. The motion of the other base nodes is "
         "interpolated linearly by height between the stations of their bank, and above the highest station it "
-        "is that of the station. Requires Foundation/Model = massless.",
+        "is that of the station. A record that begins at a later time is zero before. Requires "
+        "Foundation/Model = massless.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter(
         "Unit", unit,
-        "Unit of the acceleration in tables and in Target spectrum: g (9.80665 m/s^2), m/s^2 or "
-        "cm/s^2. AT2 files are always in g.",
-        Patterns::Selection("g|m/s^2|cm/s^2"));
+        "Unit of the acceleration in tables and in Target spectrum, such as g (9.80665 m/s^2), m/s^2, cm/s^2 or "
+        "gal. AT2 files are always in g.",
+        Patterns::Selection(unit_choices("acceleration")));
     prm.add_parameter("Baseline", baseline,
                       "Source = file: correction of each component over its length in the run. none. linear: "
                       "the least-squares straight line of the acceleration is subtracted. quadratic: a "
@@ -130,7 +132,7 @@ namespace Voussoir
                       "Source = artificial: peak acceleration in x and in y [g].", {.005, 2.});
     prm.add_parameter(
         "Vertical ratio", vertical_ratio,
-        "Source = artificial, or Target spectrum with one column: ratio of peak and spectrum in "
+        "Source = artificial, or spectrum of a file with one column: ratio of peak and spectrum in "
         "z to those in x and y [-].",
         {.2, 1.5});
     prm.add_parameter(
@@ -396,8 +398,8 @@ namespace Voussoir
   void MotionParameters::read_target(const std::string &scene_directory)
   {
     if (has_target() && !target_file.empty())
-      target_spectrum = read_target_spectrum((std::filesystem::path(scene_directory) / target_file).string(),
-                                             unit, vertical_ratio, MotionCriteria::last_period);
+      target_spectrum = read_spectrum((std::filesystem::path(scene_directory) / target_file).string(), unit,
+                                      vertical_ratio, {.02, MotionCriteria::last_period});
   }
 
   void MotionParameters::add_choices(ModelChoices &choices) const

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/units.h>
 #include <voussoir/motion/motion_record.h>
 
 #include <algorithm>
@@ -10,7 +11,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
-#include <map>
 #include <set>
 
 namespace Voussoir
@@ -95,31 +95,26 @@ namespace Voussoir
       return to_number(word, ignored);
     }
 
-    /** Returns the unit of acceleration in headings such as "a_x [cm/s2]" or "X (g)", in the form of
-     * Motion/Unit. The letter g is a unit in parentheses only. Returns an empty string for no unit and for
-     * several units. */
+    /** Returns the unit of acceleration in headings such as "a_x [cm/s2]" or "X (g)", as unit_name(). The letter
+     * g is a unit in parentheses only. Returns an empty string for no unit and for several units. */
     std::string unit_in(std::string text)
     {
       std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-      static const std::map<std::string, std::string> units = {
-          {"(g)", "g"},           {"[g]", "g"},         {"cm/s2", "cm/s^2"},
-          {"cm/s^2", "cm/s^2"},   {"cm/s/s", "cm/s^2"}, {"cm/sec2", "cm/s^2"},
-          {"gal", "cm/s^2"},      {"gals", "cm/s^2"},   {"cm/sec/sec", "cm/s^2"},
-          {"cm/sec^2", "cm/s^2"}, {"m/s2", "m/s^2"},    {"m/s^2", "m/s^2"},
-          {"m/s/s", "m/s^2"},     {"m/sec2", "m/s^2"},  {"m/sec^2", "m/s^2"},
-          {"m/sec/sec", "m/s^2"}};
-      const auto is_part = [](const unsigned char c) { return std::isalnum(c) || c == '/' || c == '^'; };
+      const auto is_part = [](const unsigned char c)
+      { return std::isalnum(c) || c == '/' || c == '^' || c >= 0x80; };
       std::set<std::string> found;
       for (std::size_t begin = 0, end; begin < text.size(); begin = end)
       {
         for (end = begin + 1; end < text.size() && is_part(text[begin]) && is_part(text[end]); ++end)
           ;
-        std::string word = text.substr(begin, end - begin);
-        if (word == "g" && begin > 0 && end < text.size())
-          word = text.substr(begin - 1, 3);
-        if (const auto unit = units.find(word); unit != units.end())
-          found.insert(unit->second);
+        const std::string word = text.substr(begin, end - begin);
+        const bool        in_parentheses =
+            begin > 0 && end < text.size() &&
+            (text[begin - 1] == '(' ? text[end] == ')' : text[begin - 1] == '[' && text[end] == ']');
+        if (word != "g" || in_parentheses)
+          found.insert(unit_name(word, "acceleration"));
       }
+      found.erase("");
       return found.size() == 1 ? *found.begin() : "";
     }
 

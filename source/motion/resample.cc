@@ -55,13 +55,13 @@ namespace Voussoir
   }
 
   std::vector<double> resample(const std::vector<double> &a, const double dt, const double new_dt,
-                               const std::size_t n)
+                               const std::size_t n, const double begin)
   {
     std::vector<double> result;
     const double        last = static_cast<double>(a.size()) - 1.;
     for (std::size_t j = 0; j < n; ++j)
     {
-      const double t = j * new_dt, position = t / dt;
+      const double t = begin + j * new_dt, position = t / dt;
       if (!is_coarser(new_dt, dt) || position >= last)
       {
         result.push_back(linear(a, position));

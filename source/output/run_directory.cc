@@ -26,9 +26,10 @@ namespace Voussoir
       const std::string name = relative.filename().string(), folder = relative.parent_path().string();
       if (folder == "figures")
       {
-        static const std::regex figure("envelope_(up|down)stream(_compression)?|openings|slips|history|"
-                                       "joint_history|spectrum|floor_spectra|energy");
-        const auto              format = relative.extension();
+        static const std::regex figure(
+            "envelope_((arch|cantilever|vertical)_)?(up|down)stream(_compression)?|"
+            "openings|slips|history|joint_history|spectrum|floor_spectra|energy");
+        const auto format = relative.extension();
         return (format == ".png" || format == ".svg" || format == ".pdf") &&
                std::regex_match(relative.stem().string(), figure);
       }
@@ -36,7 +37,8 @@ namespace Voussoir
         return std::regex_match(name, std::regex("problem-[0-9]{6}\\.hdf5"));
       static const std::regex result(
           "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|blocks|joints|joint_history|joint_"
-          "points|joint_cells|joint_pressures|spectrum|floor_spectra|faces|faces_cells|wedges)\\.csv|envelope\\.vtu|solution\\."
+          "points|joint_cells|joint_pressures|spectrum|floor_spectra|faces|faces_cells|wedges|water_"
+          "pressure)\\.csv|envelope\\.vtu|solution\\."
           "pvd|(solution|joints)-[0-9]{5,}\\.vtu|report\\.(html|pdf)|figures\\.log|checkpoint\\.txt|"
           "frames\\.bin|checkpoint\\.bin(\\.before|\\.new)?|\\.voussoir");
       return folder.empty() && std::regex_match(name, result);
@@ -183,13 +185,29 @@ namespace Voussoir
     {
       const fs::path place = path / entry;
       const bool     is_problem = !entry.parent_path().empty() && *entry.begin() == "contact";
-      // In a directory of another program only checkpoints are removed. Other files are replaced.
+      // In a directory of another program only checkpoints and links are removed. Other files are replaced.
       const bool      removed = ours ? is_result(entry) && !(keep_problems && is_problem)
-                                     : is_result(entry) && entry.string().compare(0, 10, "checkpoint") == 0;
+                                     : is_result(entry) && (entry.string().compare(0, 10, "checkpoint") == 0 ||
+                                                       fs::is_symlink(place));
       std::error_code error;
       if (removed && entry != marker && !is_in_the_way(place) && (!fs::remove(place, error) || error))
         throw WriteError("The old result " + place.string() +
                          " cannot be removed. Remove it, or choose another directory with --output.");
     }
+  }
+
+  void RunDirectory::expect_tables()
+  {
+    if (tables.empty())
+      for (const fs::path &entry : entries_of(path))
+        if (const fs::path ending = entry.extension();
+            is_result(entry) && entry.parent_path().empty() &&
+            (ending == ".csv" || ending == ".prm" || ending == ".txt"))
+          tables.push_back(entry);
+    std::error_code error;
+    for (const fs::path &table : tables)
+      if (!fs::exists(path / table, error))
+        throw WriteError("The file " + (fs::path(path) / table).string() +
+                         " was removed while the program was running.");
   }
 } // namespace Voussoir

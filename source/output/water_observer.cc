@@ -4,6 +4,7 @@
 #include <voussoir/output/recorders.h>
 
 #include <algorithm>
+#include <cstdio>
 
 namespace Voussoir
 {
@@ -49,12 +50,17 @@ namespace Voussoir
     log.line("Water     largest dynamic pressure %.3f MPa at (%.1f, %.1f, %.1f) m, smallest %.3f MPa",
              1e-6 * highest.value, p[0], p[1], p[2], 1e-6 * lowest.value);
     const auto q = water.mesh().points[driest.node];
-    if (driest.value < 0.)
-      log.line(
-          "warning: the absolute pressure of the water falls to %.3f MPa at (%.1f, %.1f, %.1f) m, t = %.3f s: the "
-          "water would cavitate there. The model has no cavitation; the later pressures there are upper bounds of "
-          "the suction.",
-          1e-6 * driest.value, q[0], q[1], q[2], driest.time);
+    if (driest.value >= 0.)
+      return;
+    char place[100], pressure[40];
+    std::snprintf(place, sizeof(place), "(%.1f, %.1f, %.1f) m, t = %.3f s", q[0], q[1], q[2], driest.time);
+    std::snprintf(pressure, sizeof(pressure), "%.3f MPa", 1e-6 * driest.value);
+    log.warn(
+        {Warning::Kind::physics,
+         std::string("the absolute pressure of the water falls to ") + pressure + " at " + place +
+             ": the water would cavitate there. The model has no cavitation; the later pressures there are "
+             "upper bounds of the suction.",
+         place});
   }
 
   std::vector<FieldWriter::NodalField> WaterObserver::fields() const

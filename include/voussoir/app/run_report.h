@@ -30,9 +30,12 @@ namespace Voussoir
   /** Draws the figures of a completed run. Prints a warning if this fails. */
   void report_figures(const std::string &directory, Log &log);
 
-  /** Writes summary.json, and prints which limits are satisfied. Throws WriteError. */
+  /** Prints which limits are satisfied. */
+  void report_limits(const RunState &run, const RunObservers &observers, Log &log);
+
+  /** Writes summary.json with the warnings of the log so far. Throws WriteError. */
   void write_summary(const std::string &directory, const RunState &run, const RunObservers &observers,
-                     const RunCounters &counters, const RankCounters &ranks, Log &log);
+                     const RunCounters &counters, const RankCounters &ranks, const Log &log);
 } // namespace Voussoir
 
 #endif

@@ -23,12 +23,16 @@ namespace Voussoir
     std::string range; ///< entry with the usual range of the number
     std::string unit;
     double      value; ///< value in @p unit
+    std::string place; ///< such as "scene.prm, line 7", or the entry of a list
+
+    const UsualRange *of_list =
+        nullptr; ///< usual range of a number in a list; null: that of the entry @p range
   };
 
   /** Returns the number of an entry. */
   UsedValue used_value(const WrittenEntry &entry);
 
-  /** Returns the numbers of entries with several numbers: materials of zones, temperature table. */
+  /** Returns the numbers of entries with several numbers: materials of zones, lists, tables. */
   std::vector<UsedValue> values_of_sources(const Scene &scene);
 
   /** Returns a warning about a value outside of its range in @p usual. Empty: plausible, or no range. */

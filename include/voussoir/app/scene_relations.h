@@ -8,7 +8,7 @@
 namespace Voussoir
 {
   /** Returns warnings about implausible combinations of entries. @p entries: entries in the input file. */
-  std::vector<std::string> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries);
+  std::vector<Warning> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries);
 } // namespace Voussoir
 
 #endif

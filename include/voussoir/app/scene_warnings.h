@@ -9,8 +9,8 @@ namespace Voussoir
 {
   /** Returns warnings about @p entries without effect because of other entries, and about values outside of
    * their @p usual range. Entries with their default value are not reported. */
-  std::vector<std::string> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries,
-                                          const UsualRanges &usual);
+  std::vector<Warning> scene_warnings(const Scene &scene, const std::vector<WrittenEntry> &entries,
+                                      const UsualRanges &usual);
 
   /** Returns all entries and sections ("Joints/Keys/") with such warnings, for tests. */
   std::vector<std::string> entries_with_warnings();

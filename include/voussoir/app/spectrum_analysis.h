@@ -25,7 +25,7 @@ namespace Voussoir
   /** Returns the spectrum that --spectrum names. The factors of the ground motion multiply it: "Motion/Factor",
    * "Motion/Scale x, y, z" and that of the load combination.
    *  - design: the design spectrum of section "Motion", MotionParameters::target().
-   *  - otherwise: a file, read_spectrum(), for all directions. It is valid for "Damping/Ratio".
+   *  - otherwise: a file, read_spectrum(), with "Motion/Vertical ratio". It is valid for "Damping/Ratio".
    *
    * Throws InputError if the scene has no design spectrum, if the file is wrong, and if the spectrum is zero. */
   ChosenSpectrum choose_spectrum(const Scene &scene, const std::string &choice);

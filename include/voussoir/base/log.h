@@ -3,6 +3,7 @@
 #define voussoir_log_h
 
 #include <voussoir/base/output_file.h>
+#include <voussoir/base/warning.h>
 
 #include <chrono>
 #include <memory>
@@ -25,16 +26,19 @@ namespace Voussoir
      * Throws WriteError. After open(), line() throws it as well. */
     void open(const std::string &file, bool append);
 
-    /** Adds a line. The arguments are those of printf, without the newline. */
+    /** Adds a line. The arguments are those of printf, without the newline. A line "warning: TEXT" is a warning
+     * about physics. */
     void line(const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-    /** Returns the texts of the lines that begin with "warning: ", without this word
-     * and without repetition. */
-    const std::vector<std::string> &warnings() const { return warned; }
+    /** Adds the line "warning: TEXT". */
+    void warn(const Warning &warning);
+
+    /** Returns the warnings so far, without repetition. */
+    const std::vector<Warning> &warnings() const { return warned; }
 
   private:
     const bool                  quiet;
-    std::vector<std::string>    warned;
+    std::vector<Warning>        warned;
     std::string                 early;
     std::unique_ptr<OutputFile> file;
   };
@@ -74,6 +78,7 @@ namespace Voussoir
     }
     Json &add(const std::string &key, const Json &object);
     Json &add(const std::string &key, const std::vector<Json> &objects);            ///< adds a list
+    Json &add(const std::string &key, const std::vector<Warning> &warnings);        ///< adds a list
     Json &add_texts(const std::string &key, const std::vector<std::string> &texts); ///< adds a list
 
     /** Adds a list of numbers. */

@@ -27,7 +27,7 @@ namespace Voussoir
   public:
     explicit OutputFile(const std::string &file, std::ios::openmode mode = std::ios::out);
 
-    /** Flushes the file. Throws WriteError if any output so far could not be written. */
+    /** Flushes the file. Throws WriteError if output so far could not be written, or if the file was removed. */
     void check();
 
   private:

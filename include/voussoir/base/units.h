@@ -6,6 +6,14 @@
 
 namespace Voussoir
 {
+  /** Returns the name of a unit, the same for equal units: "cm/s^2" for "cm/s2", "cm/sec/sec" and "gal".
+   * @param text unit, as after a number in the input file
+   * @param dimension such as "acceleration"; an empty string is returned if @p text is no unit of it */
+  std::string unit_name(const std::string &text, const std::string &dimension);
+
+  /** Returns all units of a dimension for a selection, such as "m|km|...", with "m/s^2" and "m/s2". */
+  std::string unit_choices(const std::string &dimension);
+
   /** Converts a value with a unit to the unit of its entry: "21 GPa" to "21000000000" for an entry in "Pa".
    * Text without a number or without a unit is returned unchanged.
    * @param value text of the input file

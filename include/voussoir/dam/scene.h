@@ -3,6 +3,7 @@
 #define voussoir_scene_h
 
 #include <voussoir/base/model_choices.h>
+#include <voussoir/base/warning.h>
 #include <voussoir/contact/contact_solver.h>
 #include <voussoir/contact/law_parameters.h>
 #include <voussoir/dam/limits.h>
@@ -138,7 +139,7 @@ namespace Voussoir
       return output.tensile_strength > 0. ? output.tensile_strength : limits.tensile_strength;
     }
 
-    std::vector<std::string> warnings; ///< of read_scene()
+    std::vector<Warning> warnings; ///< of read_scene()
 
     /** Declares all entries. */
     void add_parameters(Entries &prm);

@@ -70,7 +70,7 @@ namespace Voussoir
   /** Standard acceleration of gravity, for accelerations in g [m/s^2]. */
   constexpr double standard_gravity = 9.80665;
 
-  /** Returns "g", "m/s^2" or "cm/s^2" (Motion/Unit) in m/s^2. */
+  /** Returns a unit of acceleration (Motion/Unit) in m/s^2. Throws InputError for other text. */
   double unit_of_acceleration(const std::string &unit);
 
   /** Writes a CSV file with the header `t,a_x,a_y,a_z` [s, m/s^2], which make_motion() can read. Throws

@@ -14,10 +14,21 @@ namespace Voussoir
    *
    * @param parameters section "Motion"
    * @param scene_directory directory of the input file
+   * @param begin time of the first sample of the motion after that of the records [s]
    *
    * Throws InputError if a record cannot be read, ends before a given "Duration", has headings with another
    * unit than "Unit", or starts at another time than the first one. */
-  GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory);
+  GroundMotion read_motion(const MotionParameters &parameters, const std::string &scene_directory,
+                           double begin = 0.);
+
+  /** First time of the records of a motion, and last time of the shortest one [s]. */
+  struct RecordTimes
+  {
+    double first, last;
+  };
+
+  /** Returns the times in the files of section "Motion". Throws InputError as read_motion(). */
+  RecordTimes record_times(const MotionParameters &parameters, const std::string &scene_directory);
 
   /** Returns a warning that the tables or the target spectrum may be in g: all values of the records, or the
    * peak acceleration of the target spectrum, are below 1 m/s^2, and no heading states a unit. Returns an empty string otherwise, or if a file cannot be read. Intended for input files without

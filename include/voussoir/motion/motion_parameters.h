@@ -3,7 +3,7 @@
 #define voussoir_motion_parameters_h
 
 #include <voussoir/motion/design_spectrum.h>
-#include <voussoir/motion/target_spectrum.h>
+#include <voussoir/motion/spectrum_file.h>
 
 #include <array>
 #include <map>
@@ -43,7 +43,7 @@ namespace Voussoir
     // Source = file. Paths are relative to the directory of the input file.
     std::string                file;              ///< one file with t, a_x, a_y, a_z, or empty
     std::array<std::string, 3> component_files;   ///< one file per component, with t, a or AT2, or empty
-    std::string                unit = "m/s^2";    ///< of tables: "g", "m/s^2" or "cm/s^2"
+    std::string                unit = "m/s^2";    ///< of the accelerations in tables
     std::string                baseline = "none"; ///< or "linear", "quadratic": without_baseline()
     bool                       match = false;     ///< matched_record() to the target spectrum
 
@@ -98,7 +98,7 @@ namespace Voussoir
     /** Returns the name of a part for messages: its files, or its seed. */
     std::string name_of_part() const;
 
-    /** Reads "Target spectrum" if it is given. Throws InputError, see read_target_spectrum(). Required before
+    /** Reads "Target spectrum" if it is given. Throws InputError, see read_spectrum(). Required before
      * target(). */
     void read_target(const std::string &scene_directory);
 
@@ -123,8 +123,8 @@ namespace Voussoir
     void add_file_parameters(Entries &prm);
     void add_sequence_parameters(Entries &prm);
 
-    TargetSpectrum target_spectrum; ///< content of target_file
-    void           add_artificial_parameters(Entries &prm);
+    SpectrumTable target_spectrum; ///< content of target_file
+    void          add_artificial_parameters(Entries &prm);
   };
 
   /** Record of "Abutments". */

@@ -14,7 +14,7 @@ namespace Voussoir
     double                           dt = 0.;      ///< sampling interval [s]
     std::vector<std::vector<double>> components;   ///< samples, of equal length, in the unit of the file
     bool                             in_g = false; ///< true for AT2 files; "Motion/Unit" is then ignored
-    std::string                      unit; ///< unit in the headings of a table, as in "Motion/Unit"; or empty
+    std::string                      unit;         ///< unit_name() in the headings of a table, or empty
 
     /** Returns the time from the first to the last sample [s]. */
     double duration() const;
@@ -42,7 +42,7 @@ namespace Voussoir
   {
     std::vector<std::vector<double>> rows;  ///< at least one number each
     std::vector<std::size_t>         lines; ///< number of the line of each row
-    std::string                      unit;  ///< unit in the headings, as in "Motion/Unit"; or empty
+    std::string                      unit;  ///< unit_name() in the headings, or empty
   };
 
   /** Reads a table with any number of columns. Throws InputError with file and line if the file is not a

@@ -23,8 +23,10 @@ namespace Voussoir
    * @param a samples at the times k @p dt
    * @param dt step of the samples [s]
    * @param new_dt step of the result [s]
-   * @param n number of values in the result. Times beyond the record have its last value. */
-  std::vector<double> resample(const std::vector<double> &a, double dt, double new_dt, std::size_t n);
+   * @param n number of values in the result. Times beyond the record have its last value.
+   * @param begin time of the first value of the result [s] */
+  std::vector<double> resample(const std::vector<double> &a, double dt, double new_dt, std::size_t n,
+                               double begin = 0.);
 } // namespace Voussoir
 
 #endif

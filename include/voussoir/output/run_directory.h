@@ -40,12 +40,16 @@ namespace Voussoir
      * Throws WriteError. */
     void begin(bool resume, bool keep_problems);
 
+    /** Throws WriteError if a table that exists at the first call does not exist at a later one. */
+    void expect_tables();
+
     const std::string path; ///< path of the directory, as on the command line
 
   private:
     void lock();
 
     std::vector<std::filesystem::path> created;         ///< directories, outermost first
+    std::vector<std::filesystem::path> tables;          ///< of the first expect_tables()
     bool                               begun = false;   ///< begin() was called
     bool                               marked = false;  ///< this object created the marker
     bool                               ours = false;    ///< the directory is one of an earlier run
