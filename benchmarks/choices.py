@@ -4,7 +4,8 @@
 
     benchmarks/choices.py [GROUP...] [--seconds 3] [--seed N] [--set ENTRY=VALUE] [--voussoir PROGRAM]
 
-Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), elements, solvers, boundary, free_field, box (its sizes), box_tied (without joints), box_static, box28 (28 joints),
+Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), elements, solvers,
+boundary, free_field, box (its sizes), box_tied (without joints), box_static, box28 (28 joints),
 rock_cells, rock28_cells, rock_layers, rock_steps. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from
 the bottom is all at the dam before the end, whatever the depth.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the

@@ -118,7 +118,7 @@ namespace
       const double before = blocks.kinetic(v);
       Unknowns     impulse = zero;
       Impact(blocks.structure, blocks.laws, ImpactRule::mean_force)
-          .correct_velocity(*blocks.system, blocks.system->histories(zero, memory), .01, zero, v, impulse);
+          .correct_velocity(*blocks.system, blocks.laws.histories(zero, true, memory), .01, zero, v, impulse);
       gain = std::max(gain, blocks.kinetic(v) / before - 1.);
       const auto error = [&](const unsigned int p)
       {

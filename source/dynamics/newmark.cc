@@ -136,10 +136,9 @@ namespace Voussoir
         equation->solve(level.system, now, step, {offset, start, memory, force, gap, u_new, base});
     if (result.converged)
     {
-      const bool is_mean = rule == ImpactRule::mean_force;
-      of_friction = laws.friction_correction(start, is_mean, force, gap, memory);
+      of_friction = laws.friction_correction(start, rule == ImpactRule::mean_force, force, gap, memory);
       step_memory = memory;
-      laws.commit(start, is_mean, force, gap, memory);
+      level.system.commit(start, force, gap, memory);
       now.memory.swap(memory);
       if (single_factors)
         now.carried.gap = gap;

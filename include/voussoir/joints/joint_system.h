@@ -70,7 +70,7 @@ namespace Voussoir
      * forces of the support. nullptr: no support, or zero displacement
      *
      * Returns convergence and costs. If ContactResult::converged is false, the results are those of the best
-     * iterate. The history variables of the laws are not updated: call PairLaws::commit() if the step is accepted. */
+     * iterate. The history variables of the laws are not updated: call commit() if the step is accepted. */
     ContactResult solve(const Unknowns &load, const Unknowns &offset, const Unknowns &start, Unknowns &memory,
                         Unknowns &force, Unknowns &gap, Unknowns &u, BaseOfStep *base = nullptr);
 
@@ -85,6 +85,16 @@ namespace Voussoir
 
     /** Changes ContactParameters::tolerance for the next solutions. */
     void set_tolerance(const double tolerance) { solver->set_tolerance(tolerance); }
+
+    /** Updates the history variables after a step is accepted.
+     * @param start gap at the start of the step, three values per pair [m]
+     * @param force joint forces of the solution, three values per pair [N]
+     * @param gap gaps of the solution, three values per pair [m]
+     * @param memory history variables after solve(); receives those for the next step */
+    void commit(const Unknowns &start, const Unknowns &force, const Unknowns &gap, Unknowns &memory) const
+    {
+      laws.commit(start, step.has_mean_forces(), force, gap, memory);
+    }
 
     /** Solves A u = load without forces of joints and support. The results of solve() are unchanged.
      * @param load nodal loads, three values per node [N]
