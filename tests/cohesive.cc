@@ -267,6 +267,30 @@ namespace
     below("  energy account / kinetic", e.balance(newmark.initial_energy()) / e.kinetic, 1e-16 / (dt * dt));
     below("  velocity / exact - 1", newmark.state().v[0] / exact_velocity(f_t, G_f) - 1., 20. * dt * dt);
   }
+
+  /** Softening by f_t^2/(4 G_f) on the mean over a step, with the flexibility dt^2/(2 m) of the block: below G_f =
+   * f_t^2 dt^2/(8 m) the step has several solutions, and the bond is lost at once. */
+  void brittle()
+  {
+    constexpr double f_t = 1e3, dt = .01;
+    for (const double share : {.99, 1.01})
+    {
+      Column column = make_column({bar(0., 1., 1, 1e-9, 1000.)}, nullptr, true);
+      column.structure.pairs.push_back(wall(column.node[0][0]));
+      column.structure.collect_interfaces();
+      const double G_f = share * f_t * f_t * dt * dt / (8. * column.structure.mass[column.node[0][0]][0]);
+      JointLaws    laws;
+      laws.of_joint.push_back(make_joint_law("cohesive", parameters(f_t, G_f)));
+      laws.assign(column.structure);
+      Newmark newmark(column.structure, laws, tight(), dt, ImpactRule::mean_force);
+      newmark.start(column.zero(), column.zero(), {0., 0., 0.}, column.zero(), {0., 0., 0.});
+      run(newmark, dt, 80, [&](const double t, Unknowns &f) { f[0] = 2. * f_t * t; }, column.zero(), [] {});
+      const std::string what = text(share) + " of the smallest G_f of the step: energy of the bond / G_f";
+      const double      taken = newmark.state().energy.joint_fracture / G_f;
+      between(what, taken, share < 1. ? 0. : 1. - 1e-9, share < 1. ? 0. : 1. + 1e-9);
+    }
+  }
+
   /** The block is drawn off until its bond has cracked a little, and pressed back: when it is closed again
    * the bond holds nothing, and has lost what belongs to its largest opening. */
   void closed_again()
@@ -339,6 +363,6 @@ int main()
 {
   return run_all({softening, not_opened, jacobian, exact_solution, limits, [] { torn_off(0., .01); },
                   [] { torn_off(0., .001); }, [] { torn_off(5., .001); }, [] { torn_off(20., .0005); },
-                  closed_again, [] { relieved(0., .5); }, [] { relieved(5., .5); }, [] { relieved(0., .8); },
+                  brittle, closed_again, [] { relieved(0., .5); }, [] { relieved(5., .5); }, [] { relieved(0., .8); },
                   [] { relieved(5., .95); }});
 }

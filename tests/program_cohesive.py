@@ -6,14 +6,15 @@
 """
 
 import math
+import random
 import signal
 import subprocess
 import time
 from pathlib import Path
 
 import run_program
-from run_program import (run_cases, arch_mesh, double, expect, refused, runs, same, same_to_the_bit, summary, table,
-                         write_scene)
+from run_program import (run_cases, arch_mesh, double, expect, from_file, read_mesh, refused, runs, same, same_to_the_bit, summary,
+                         table, write_mesh, write_scene)
 
 EXACT = ("--set", "Dynamics/Factors=double")  # tests of round-off
 SHORT = [*EXACT, *(x for e in ("Motion/Duration=1", "Output/Envelope interval=0") for x in ("--set", e))]
@@ -71,6 +72,44 @@ def resume():
     same_to_the_bit("whole", "killed")
 
 
+def numbers():
+    """A small arch dam on a bonded base, its mirror image and the same mesh with shuffled nodes: the same openings in few Newton steps,
+    for bonds that soften and bonds that are brittle in the time step."""
+    write_scene()
+    arc = "elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n0,-1,28,5,22,25,25\n30,0,38,2.5,35.5,48,48\n"
+    Path("arcs.csv").write_text(arc)
+    common = [x for entry in ("Mesh/Source=arcs", "Mesh/Arcs/Table=arcs.csv", "Mesh/Arcs/Joints=3", "Mesh/Arcs/Elements along=16", "Mesh/Arcs/Elements up=5",
+                              "Mesh/Arcs/Elements through=1", "Mesh/Arcs/Base joint=true", "Joints/Overrides=base: cohesive", "Joints/Strength=2 MPa",
+                              "Reservoir/Water level=27", "Motion/Unit=m/s^2", "Motion/Duration=1.6", "Output/Envelope interval=0", "Dynamics/Factors=double")
+              for x in ("--set", entry)]
+    runs("mesh", "scene.prm", *common, "--output", "plain.msh", "--format", "2.2")
+    mesh = read_mesh("plain.msh")
+    turned = [3, 2, 1, 0, 7, 6, 5, 4]
+    mirrored = [(kind, tag if kind == 3 else 5 - tag, [corners[k] for k in turned[:len(corners)]]) for kind, tag, corners in mesh["elements"]]
+    order = list(range(len(mesh["nodes"])))
+    random.Random(1).shuffle(order)
+    place = {node: k for k, node in enumerate(order)}
+    shuffled = [(kind, tag, [place[n] for n in corners]) for kind, tag, corners in mesh["elements"]]
+    random.Random(2).shuffle(shuffled)
+    write_mesh("mirror.msh", {**mesh, "nodes": [[x, -y, z] for x, y, z in mesh["nodes"]], "elements": mirrored})
+    write_mesh("shuffled.msh", {**mesh, "nodes": [mesh["nodes"][n] for n in order], "elements": shuffled})
+    for sign, name in ((1, "plain"), (-1, "mirror")):
+        rows = [(.01 * i, min(1., math.exp(-((.01 * i - 1) / .6) ** 2) if i < 100 else 1.)) for i in range(200)]
+        Path(f"{name}.txt").write_text("".join(
+            f"{t} {6 * s * math.sin(17 * t):.12g} {sign * 4.8 * s * math.sin(23 * t + 1):.12g} {3 * s * math.sin(29 * t + 2):.12g}\n" for t, s in rows))
+    for energy in (300, 1200):
+        opening = []
+        for name, motion in (("plain", "plain"), ("mirror", "mirror"), ("shuffled", "plain")):
+            runs("scene.prm", "--output", f"{name}{energy}", *common, *from_file(f"{name}.msh"), "--set", f"Motion/File={motion}.txt",
+                 "--set", f"Joints/Fracture energy={energy}")
+            result = summary(f"{name}{energy}")
+            opening.append(result["extremes"]["max_opening"]["value"])
+            steps = result["newton_iterations"]["mean"]
+            expect(steps < 10 and result["contact_path"]["smaller_step"] == 0, f"{name}, {energy} N/m: {steps} Newton steps, {result['contact_path']}")
+        print(f"    {energy} N/m: largest openings {opening} m")
+        expect(max(opening) - min(opening) < 1e-6 * opening[0] and opening[0] > 1e-3, f"largest openings with {energy} N/m: {opening}")
+
+
 def entries():
     write_scene()
     refused(["scene.prm", "--output", "x", *SHORT, *cohesive("1 MPa", "0"), "--set",
@@ -110,4 +149,4 @@ def entries():
 
 
 if __name__ == "__main__":
-    run_cases(limits, energy, resume, entries)
+    run_cases(limits, energy, resume, numbers, entries)

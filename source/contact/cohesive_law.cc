@@ -162,7 +162,7 @@ namespace Voussoir
         if (memory[largest] == 0. && gap[0] <= nothing * end)
         {
           if (length(gap[1] - history.start[1], gap[2] - history.start[2]) > nothing * end)
-            memory[largest] = nothing * end; // it slipped and remains cracked
+            memory[condition] = lost; // it slipped
           else if (-force[0] < (1. - nothing) * strength * history.area)
             memory[condition] = bonded; // unloaded by other cracks before it moved
           return;
@@ -179,8 +179,8 @@ namespace Voussoir
       {
         if (is_bonded(memory))
           return 0.;
-        const Softening law(strength * area, end, memory[condition] == lost ? end : memory[largest]);
-        return law.lost() + law.work(0., std::max(gap[0], 0.));
+        const Softening law(strength * area, end, memory[largest]);
+        return law.lost() + (memory[condition] == lost ? 0. : law.work(0., std::max(gap[0], 0.)));
       }
 
     private:

@@ -197,10 +197,10 @@ namespace Voussoir
       return std::numeric_limits<double>::infinity();
     // Unbounded forces (a problem without a solution, a singular step) make any error small relative to
     // the forces. The error must therefore be small relative to the load, too. The round-off of W force
-    // is allowed, for forces up to 1e4 loads. With larger forces, an overlap of 1e-10 of the load would
+    // is allowed, for forces up to 1e2 loads. With larger forces, an overlap of 1e-12 of the load would
     // count as round-off.
     const double allowance = 4. * std::numeric_limits<double>::epsilon() * norm_of_W * mean_rho *
-                             std::min(force_size, 1e4 * load_size);
+                             std::min(force_size, 1e2 * load_size);
     scale = std::min(scale, std::max(load_size, (allowance + round_off) / parameters.tolerance));
     return scale > 0. ? error / scale : 0.;
   }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 namespace Voussoir
 {
@@ -60,8 +61,24 @@ namespace Voussoir
     return list;
   }
 
-  unsigned int PairLaws::revise(const Unknowns &start, const bool is_mean, const Unknowns &gap,
-                                Unknowns &force, Unknowns &memory) const
+  namespace
+  {
+    /** Returns true if the force of a pair that begins to open falls faster than the flexibility @p H of the pair
+     * relieves it: the diagonal of Newton's matrix is negative.
+     * @param force force at which it cracks
+     * @param gap gap at which it cracks
+     * @param history data after the event */
+    bool snaps(const JointLaw &law, const Matrix3 &H, const Vector3 &force, Vector3 gap, const PairHistory &history)
+    {
+      gap[0] += 1e-6 * H[0] * std::abs(force[0]); // the softening begins above the gap
+      PairEquations e;
+      law.evaluate(force, gap, history, 1. / H[0], e);
+      return e.d_force[0] + e.d_gap[0] * H[0] < 0.;
+    }
+  } // namespace
+
+  unsigned int PairLaws::revise(const ContactOperator &W, const Unknowns &start, const bool is_mean,
+                                const Unknowns &gap, Unknowns &force, Unknowns &memory) const
   {
     assert(force.size() == 3 * of_pair.size());
     constexpr double               among_the_worst = .9;
@@ -78,6 +95,8 @@ namespace Voussoir
       if (utilisation[p] > 1. && utilisation[p] >= among_the_worst * largest)
       {
         of_pair[p]->apply_event(memory.data() + memory_begin(p));
+        if (is_mean && snaps(*of_pair[p], W.diagonal(p), get(force, p), get(gap, p), history[p]))
+          of_pair[p]->apply_event(memory.data() + memory_begin(p), JointEvent::cut);
         set(force, p, {});
         ++count;
       }

@@ -361,7 +361,7 @@ namespace Voussoir
       if (!laws.have_memory())
         return result;
       total += result;
-      again = result.converged && laws.revise(start, step.has_mean_forces(), gap, force, memory) > 0;
+      again = result.converged && laws.revise(W, start, step.has_mean_forces(), gap, force, memory) > 0;
     }
     return total;
   }

@@ -32,7 +32,7 @@ namespace Voussoir
   enum class JointEvent
   {
     limit, ///< JointLaw::utilisation() exceeds 1
-    cut    ///< the bond is lost without a crack: a saw cut, or a gap that grout did not fill
+    cut    ///< the bond is lost at once: a saw cut, a gap that grout did not fill, or a brittle crack
   };
 
   /** Data of a pair that a joint law requires besides force and gap. */

@@ -2,6 +2,7 @@
 #ifndef voussoir_joint_laws_h
 #define voussoir_joint_laws_h
 
+#include <voussoir/contact/contact_operator.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/solid/structure.h>
 
@@ -40,9 +41,13 @@ namespace Voussoir
 
     /** Applies events (JointLaw::apply_event()) to the pairs with the highest utilisation: all pairs above 1
      * and above 0.9 of the largest value. These events may relieve the other pairs. Changes the history
-     * variables of these pairs, and sets their forces to 0 as a first guess. Returns the number of events. */
-    unsigned int revise(const Unknowns &start, bool is_mean, const Unknowns &gap, Unknowns &force,
-                        Unknowns &memory) const;
+     * variables of these pairs, and sets their forces to 0 as a first guess. Returns the number of events.
+     *
+     * In a time step a crack that softens faster than its pair relaxes loses its bond at once (JointEvent::cut). With
+     * its softening, the step would have several solutions. @p W: operator of the step, for the flexibility of the
+     * pairs. */
+    unsigned int revise(const ContactOperator &W, const Unknowns &start, bool is_mean, const Unknowns &gap,
+                        Unknowns &force, Unknowns &memory) const;
 
     /** Restores the bond of a pair, or removes it (JointEvent::cut). */
     void restore_bond(std::size_t pair, Unknowns &memory) const;
