@@ -874,6 +874,6 @@ int main()
 {
   return run_all({test_sizes, test_coupling, test_friction, test_hyperstatic, test_separate_chains,
                   test_reversals, test_units, test_noise, test_methods, test_bad_problems, test_unconverged,
-                  test_infeasible, test_squeezed, test_slightly_squeezed, test_twice_and_extreme,
-                  test_condensation});
+                  test_infeasible, test_squeezed, test_twice_and_extreme, test_condensation,
+                  test_slightly_squeezed});
 }
