@@ -284,7 +284,8 @@ namespace
       laws.assign(column.structure);
       Newmark newmark(column.structure, laws, tight(), dt, ImpactRule::mean_force);
       newmark.start(column.zero(), column.zero(), {0., 0., 0.}, column.zero(), {0., 0., 0.});
-      run(newmark, dt, 80, [&](const double t, Unknowns &f) { f[0] = 2. * f_t * t; }, column.zero(), [] {});
+      run(
+          newmark, dt, 80, [&](const double t, Unknowns &f) { f[0] = 2. * f_t * t; }, column.zero(), [] {});
       const std::string what = text(share) + " of the smallest G_f of the step: energy of the bond / G_f";
       const double      taken = newmark.state().energy.joint_fracture / G_f;
       between(what, taken, share < 1. ? 0. : 1. - 1e-9, share < 1. ? 0. : 1. + 1e-9);
@@ -363,6 +364,6 @@ int main()
 {
   return run_all({softening, not_opened, jacobian, exact_solution, limits, [] { torn_off(0., .01); },
                   [] { torn_off(0., .001); }, [] { torn_off(5., .001); }, [] { torn_off(20., .0005); },
-                  brittle, closed_again, [] { relieved(0., .5); }, [] { relieved(5., .5); }, [] { relieved(0., .8); },
-                  [] { relieved(5., .95); }});
+                  brittle, closed_again, [] { relieved(0., .5); }, [] { relieved(5., .5); },
+                  [] { relieved(0., .8); }, [] { relieved(5., .95); }});
 }

@@ -624,6 +624,18 @@ namespace
     }
   }
 
+  /** Squeezes of 30 and 100 times the tolerance, within the round-off of forces of 1e4 loads. */
+  void test_slightly_squeezed()
+  {
+    for (const double eps : {3e-11, 1e-10})
+    {
+      unsigned int false_claims = 0;
+      for (unsigned int trial = 0; trial < 200; ++trial)
+        false_claims += solve(squeezed(-eps)).result.converged;
+      report("infeasible by " + text(eps) + ", but converged, of 200", false_claims, "0", false_claims == 0);
+    }
+  }
+
   /** Every contact twice: the forces are not unique, the gaps are. And numbers whose squares are none. */
   void test_twice_and_extreme()
   {
@@ -862,5 +874,6 @@ int main()
 {
   return run_all({test_sizes, test_coupling, test_friction, test_hyperstatic, test_separate_chains,
                   test_reversals, test_units, test_noise, test_methods, test_bad_problems, test_unconverged,
-                  test_infeasible, test_squeezed, test_twice_and_extreme, test_condensation});
+                  test_infeasible, test_squeezed, test_twice_and_extreme, test_condensation,
+                  test_slightly_squeezed});
 }

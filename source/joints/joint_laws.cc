@@ -68,7 +68,8 @@ namespace Voussoir
      * @param force force at which it cracks
      * @param gap gap at which it cracks
      * @param history data after the event */
-    bool snaps(const JointLaw &law, const Matrix3 &H, const Vector3 &force, Vector3 gap, const PairHistory &history)
+    bool snaps(const JointLaw &law, const Matrix3 &H, const Vector3 &force, Vector3 gap,
+               const PairHistory &history)
     {
       gap[0] += 1e-6 * H[0] * std::abs(force[0]); // the softening begins above the gap
       PairEquations e;
