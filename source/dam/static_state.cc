@@ -85,7 +85,7 @@ namespace Voussoir
     {
       constexpr double degree = 180. / 3.14159265358979;
       const double     holds = degree * std::atan(dam.scene.joints.law(dam.scene.concrete.young).friction);
-      double           steepest = 0., flattest = 90.;
+      double           steepest = 0.;
       for (const Body *body : bodies)
       {
         Vector3 normal{};
@@ -96,14 +96,12 @@ namespace Voussoir
               normal[c] += pair.area * pair.frame[0][c];
         if (norm(normal) == 0.) // no base joint
           continue;
-        const double slope = degree * std::acos(normal[2] / norm(normal));
-        steepest = std::max(steepest, slope);
-        flattest = std::min(flattest, slope);
+        steepest = std::max(steepest, degree * std::acos(normal[2] / norm(normal)));
       }
       std::ostringstream text;
       text.precision(3);
       if (steepest > holds)
-        text << " The base of these monoliths slopes by " << flattest << " to " << steepest
+        text << " The base of these blocks slopes by up to " << steepest
              << " degrees; the angle of friction is " << holds << " degrees.";
       return text.str();
     }
@@ -394,14 +392,18 @@ namespace Voussoir
       /** Returns the end of a message about blocks that slide under the weight alone: the reason, and what to do. */
       std::string under_weight(const std::vector<const Body *> &moving) const
       {
-        return " under the weight alone, " +
-               std::string(grouted == -INFINITY ? "free-standing"
-                                                : "with the joints that are grouted before the first load") +
+        const bool has_lifts = grouted < INFINITY;
+        return " under the weight alone, with " +
+               std::string(!has_lifts             ? "all joints closed"
+                           : grouted == -INFINITY ? "joints that are not grouted (free-standing)"
+                                                  : "the joints that are grouted before the first load") +
                "." + slopes_of_base(dam, moving) +
-               " Begin \"Statics/Stages\" with grout up to the height of these monoliths, or remove the lifts and set "
-               "\"Statics/Self-weight\" = monolithic (the weight of the finished dam), or check the friction "
-               "(\"Joints/Friction\"), or bond the base or lift joints (\"Joints/Overrides\" = base: tied, lift: "
-               "tied).";
+               (has_lifts
+                    ? " Begin \"Statics/Stages\" with grout up to the height of these monoliths, or remove the lifts "
+                      "and set \"Statics/Self-weight\" = monolithic (the weight of the finished dam), or check"
+                    : " Check") +
+               " the friction (\"Joints/Friction\"), or bond the base or lift joints (\"Joints/Overrides\" = base: tied, "
+               "lift: tied).";
       }
 
       /** Returns the message for the forces that hold the moving blocks. */
