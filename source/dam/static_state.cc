@@ -476,9 +476,17 @@ namespace Voussoir
         message << "step " << i + 1 << " of " << n << "." << largest_error(dam.structure, result)
                 << " The residual is " << result.residual << " of the joint forces and "
                 << result.residual_over_load << " of the load (limit " << parameters.tolerance
-                << ", from \"Contact/Tolerance\"), after " << result.iterations
-                << " Newton steps. Increase \"Statics/Water increments\" or \"Contact/Maximum "
-                   "iterations\".";
+                << ", from \"Contact/Tolerance\"), after " << result.iterations << " Newton steps. ";
+        const double share = result.residual / parameters.tolerance;
+        if (result.iterations == 0 || share < 1e3) // near the round-off, or no step is possible
+          message << "More increments or iterations will not help. Set \"Contact/Tolerance\" to "
+                  << dam.scene.contact.tolerance * std::pow(10., std::ceil(std::log10(share)))
+                  << ", or \"Contact/Method\" to proximal.";
+        else if (path.depends_on_increments())
+          message
+              << "The increments were halved already. Increase \"Contact/Maximum iterations\", or divide the stage.";
+        else
+          message << "Increase \"Statics/Water increments\" or \"Contact/Maximum iterations\".";
         return message.str();
       }
 
