@@ -19,6 +19,7 @@ namespace Voussoir
     constexpr double path_tolerance =
         5e-3; // change of the displacements by halved increments, of the largest one
     constexpr unsigned int most_increments = 64; // of a stage
+    constexpr unsigned int most_failures = 4;    // halvings in a row without convergence
 
     constexpr double stiffest =
         4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
@@ -143,7 +144,7 @@ namespace Voussoir
         {
           if (stage == 0 || path.part(stage).grouted > path.grouted_before(stage))
             grout();
-          if (path.depends_on_increments() && !path.is_weight_alone(stage))
+          if (dam.has_loose_blocks() && path.n_parts() > 1 && !path.is_weight_alone(stage))
             refine();
           else if (advance(path.increments(stage)))
           {
@@ -198,12 +199,14 @@ namespace Voussoir
         return true;
       }
 
-      /** Solves a stage with increments that are halved until the displacements at its end change by less than a
-       * tolerance. The state is that of the finer increments. */
+      /** Solves a stage with increments that are halved until they converge and, if the state depends on them, until the
+       * displacements at its end change by less than a tolerance. The state is that of the finer increments. */
       void refine()
       {
-        const Snapshot start{state, gap, copy_of(water)};
-        Unknowns       coarse; // displacements with half of the increments, or empty
+        const Snapshot     start{state, gap, copy_of(water)};
+        Unknowns           coarse;       // displacements with half of the increments, or empty
+        unsigned int       failures = 0; // in a row
+        const unsigned int most = std::max(most_increments, 2 * path.increments(stage));
         for (unsigned int n = path.increments(stage);; n *= 2)
         {
           const ContactResult work = state.contact;
@@ -211,9 +214,12 @@ namespace Voussoir
           state.contact = work;
           gap = start.gap;
           water = copy_of(start.water);
-          const bool converged = advance(n), is_last = 2 * n > most_increments;
-          if (!converged && is_last)
+          const bool converged = advance(n), is_last = 2 * n > most;
+          failures = converged ? 0 : failures + 1;
+          if (!converged && (is_last || failures == most_failures))
             throw_failure();
+          if (converged && !path.depends_on_increments())
+            return report();
           const double change = converged && !coarse.empty() ? largest_difference(state.u, coarse) : INFINITY,
                        limit = path_tolerance * largest_difference(state.u, {});
           coarse = converged ? state.u : Unknowns();
