@@ -6,6 +6,7 @@
 """
 
 import math
+import re
 import sys
 from pathlib import Path
 
@@ -384,6 +385,37 @@ def arch():
     expect(abs(weight[0] / bonded[0] - 1) < 1e-6, f"the base carries {weight[0]} N instead of {bonded[0]} N")
 
 
+def stages():
+    """An arch dam on base joints in stages: its state does not depend on the increments that it begins with. Monoliths that slide
+    under their weight are named. On rock with mass the static state takes few Newton steps."""
+    write_scene()
+    history = ("Motion/Source=none", "Statics/Stages=fill 100, grout 140, fill 150")
+    for foundation, joints, increments in (("rigid", 3, (1, 2, 4)), ("massless", 1, (1, 3))):
+        crests = []
+        for n in increments:
+            shown = runs("scene.prm", "--output", f"{foundation}_{n}", *ARCH, *BASE, *settings(
+                *history, f"Statics/Water increments={n}", f"Mesh/Arch210/Joints={joints}", f"Foundation/Model={foundation}"))
+            expect("Stage     weight alone: crest" in shown and "warning: stage" not in shown, shown)
+            limits = [float(x) for x in re.findall(r"displacements differ by \S+ mm \(limit (\S+) mm\)", shown)]
+            crests.append(summary(f"{foundation}_{n}")["static"]["crest_displacement"])
+            names, rows = table(f"{foundation}_{n}/stages.csv")
+            expect(sorted({row[0] for row in rows}) == [0, 1, 2, 3] and len(limits) == 3, f"{names} {rows} {limits}")
+        differ = max(math.dist(a, crests[0]) for a in crests)
+        print(f"    {foundation}: crest {crests}, largest difference {1e3 * differ:.2g} mm, limit {limits[-1]:.2g} mm")
+        expect(1e3 * differ < limits[-1], f"{foundation}: the increments change the crest by {differ} m")
+    slippery = settings(*history, "Joints/Friction=0.2")
+    refused(["scene.prm", "--output", "x", *ARCH, *BASE, *slippery], "weight alone", "monolith 1", "free-standing", "Statics/Self-weight")
+    section("slope.msh", 6., 6., 9., 6, 6, slope=12.)
+    entries = sections({"joints": {"Friction": .2}, "Reservoir": {"Water level": 2., "Density": 1000, "Model": "none"}})
+    entries["Statics"]["Stages"] = "fill 1"
+    refused([scene("slope", "slope.msh", **entries), "--output", "slope"], "no equilibrium: monolith 1", "weight alone", "by up to 12 degrees", "11.3 degrees")
+    lifts = settings("Motion/Source=none", "Foundation/Model=rock", "Mesh/Arch210/Lift joints=2")
+    shown = runs("scene.prm", "--output", "rock", *ARCH, *BASE, *lifts)
+    steps = int(re.search(r"(\d+) Newton steps", shown)[1])
+    print(f"    lifts and base joints on rock: {steps} Newton steps")
+    expect(steps < 90, f"{steps} Newton steps")
+
+
 def vertical(name):
     """Vertical forces on the bases of all monoliths in the static state: one list per monolith [N]."""
     names, rows = table(f"{name}/blocks.csv")
@@ -426,9 +458,11 @@ def refusals():
     refused(["scene.prm", *ARCH, *settings("Joints/Overrides=base: tied")], "\"base\"", "contraction")
     refused(["scene.prm", *ARCH, *BASE, *settings("Loads/Uplift/Joints=true", "Loads/Uplift/Base=true")], "Uplift/Joints", "Uplift/Base")
     refused(["scene.prm", *ARCH, *settings("Joints/Adhesion=1 MPa", "Joints/Friction=0")], "Adhesion", "Friction")
+    for more, *parts in (("Mesh/Arch210/Joints=0", "no contraction joints"), ("Joints/Overrides=contraction: tied", "all contraction joints are tied")):
+        refused(["scene.prm", *ARCH, *BASE, *settings("Statics/Stages=grout 100, fill 100", more)], "Statics/Stages", "grouts joints", *parts)
     refused(["scene.prm", *ARCH, *settings("Joints/Normal stiffness=1e11", "Joints/Equations=fischer-burmeister")], "alart-curnier")
     refused(["scene.prm", *ARCH, *settings("Joints/Normal stiffness=1e11", "Dynamics/Impact=paper")], "mean-force")
 
 
 if __name__ == "__main__":
-    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, rock_water, rock_edges, arch, resume, refusals)
+    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, rock_water, rock_edges, arch, stages, resume, refusals)

@@ -185,7 +185,8 @@ def stages():
     crests = [row[names.index("crest_x")] for row in rows]
     print(f"    grouted at rest: crest {crests}")
     expect(abs(crests[-1] - alone) < 1e-7 * alone, f"the grouting moves the crest from {alone}: {crests}")
-    at_first, _ = result("at_first", *settings(Statics__Stages="grout 1000, fill 100"))
+    at_first, shown = result("at_first", *settings(Statics__Stages="grout 1000, fill 100"))
+    expect("1000 m of a lift is above the joints" in shown, shown)
     filled, _ = result("not_lifted", *settings(Statics__Stages="fill 100"))
     expect(math.dist(at_first["static"]["crest_displacement"], filled["static"]["crest_displacement"]) < 1e-12, "all grouted at first")
     # Through an earthquake, and from a checkpoint, openings still count from the grouting.
@@ -204,6 +205,7 @@ def stages():
         said = f"Statics/Stages ends with day {stages_of_days.split('day ')[-1].split(',')[0]}" in shown.stdout + shown.stderr
         expect(shown.returncode == 0 and said == warned, f"{stages_of_days}, then day {day}: {shown.stdout[-500:]}{shown.stderr}")
     for value, *parts in (("fill", "fill Z"), ("flood 100", "flood 100"), ("fill 300", "above the dam"),
+                          ("fill -5", "below the upstream face"), ("grout -5, fill 100", "below all joints", "not a depth"),
                           ("grout 100, grout 90", "not above"), ("day 4", "Loads/Temperature/Table")):
         refused(["static.prm", "--output", "x", *settings(Statics__Stages=value)], "Statics/Stages", *parts)
     refused(["static.prm", "--output", "x", *settings(Statics__Stages="grout 100", Joints__Model="tied")], "tied")

@@ -214,10 +214,12 @@ namespace Voussoir
         "monolithic: to the finished dam, together with the water. none: no self-weight. Default staged, "
         "because dams are built in this way.",
         Patterns::Selection("staged|monolithic|none"));
-    prm.add_parameter("Water increments", water_increments,
-                      "Number of load increments of each static stage [-]. The result depends slightly on it "
-                      "because of friction.",
-                      Patterns::Integer(1));
+    prm.add_parameter(
+        "Water increments", water_increments,
+        "Number of load increments of each static stage [-]. The result depends slightly on it "
+        "because of friction. With stages and friction in base or lift joints, the program halves "
+        "the increments until the state agrees.",
+        Patterns::Integer(1));
     prm.add_parameter("Gravity", gravity, "Acceleration of gravity [m/s^2].", {9.7, 9.9},
                       Patterns::Double(0.));
     prm.add_parameter(

@@ -194,18 +194,20 @@ namespace Voussoir
         bottom = std::min(bottom, pair.place[2]);
         top = std::max(top, pair.place[2]);
       }
+    const auto [dam_bottom, dam_top] = upstream_face(dam);
+    const double       allowed = 1e-6 * dam.size;
     std::ostringstream text;
     text << std::setprecision(8) << "Entry \"Statics/Stages\": the height " << height << " m of a lift is ";
     if (height < bottom)
-    {
       text
           << "below all joints, whose lower end is at " << bottom
           << " m, so that no joint is grouted. Increase it; it is a height in the axes of the scene, not a depth.";
+    else
+      text << "above the joints, whose top is at " << top
+           << " m: all joints are grouted. Reduce it, or check the axes and the length unit of the mesh.";
+    if (height < std::min(bottom, dam_bottom) - allowed)
       throw InputError(text.str());
-    }
-    text << "above the joints, whose top is at " << top
-         << " m: all joints are grouted. Reduce it, or check the axes and the length unit of the mesh.";
-    if (height > std::max(top, upstream_face(dam).second) + 1e-6 * dam.size)
+    if (height < bottom || height > std::max(top, dam_top) + allowed)
       warned.push_back(text.str());
   }
 

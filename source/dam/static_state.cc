@@ -19,6 +19,7 @@ namespace Voussoir
     constexpr double path_tolerance =
         5e-3; // change of the displacements by halved increments, of the largest one
     constexpr unsigned int most_increments = 64; // of a stage
+    constexpr unsigned int most_failures = 4;    // halvings in a row without convergence
 
     constexpr double stiffest =
         4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
@@ -85,7 +86,7 @@ namespace Voussoir
     {
       constexpr double degree = 180. / 3.14159265358979;
       const double     holds = degree * std::atan(dam.scene.joints.law(dam.scene.concrete.young).friction);
-      double           steepest = 0., flattest = 90.;
+      double           steepest = 0.;
       for (const Body *body : bodies)
       {
         Vector3 normal{};
@@ -96,14 +97,12 @@ namespace Voussoir
               normal[c] += pair.area * pair.frame[0][c];
         if (norm(normal) == 0.) // no base joint
           continue;
-        const double slope = degree * std::acos(normal[2] / norm(normal));
-        steepest = std::max(steepest, slope);
-        flattest = std::min(flattest, slope);
+        steepest = std::max(steepest, degree * std::acos(normal[2] / norm(normal)));
       }
       std::ostringstream text;
       text.precision(3);
       if (steepest > holds)
-        text << " The base of these monoliths slopes by " << flattest << " to " << steepest
+        text << " The base of these blocks slopes by up to " << steepest
              << " degrees; the angle of friction is " << holds << " degrees.";
       return text.str();
     }
@@ -145,7 +144,7 @@ namespace Voussoir
         {
           if (stage == 0 || path.part(stage).grouted > path.grouted_before(stage))
             grout();
-          if (path.depends_on_increments() && !path.is_weight_alone(stage))
+          if (dam.has_loose_blocks() && path.n_parts() > 1 && !path.is_weight_alone(stage))
             refine();
           else if (advance(path.increments(stage)))
           {
@@ -200,12 +199,14 @@ namespace Voussoir
         return true;
       }
 
-      /** Solves a stage with increments that are halved until the displacements at its end change by less than a
-       * tolerance. The state is that of the finer increments. */
+      /** Solves a stage with increments that are halved until they converge and, if the state depends on them, until the
+       * displacements at its end change by less than a tolerance. The state is that of the finer increments. */
       void refine()
       {
-        const Snapshot start{state, gap, copy_of(water)};
-        Unknowns       coarse; // displacements with half of the increments, or empty
+        const Snapshot     start{state, gap, copy_of(water)};
+        Unknowns           coarse;       // displacements with half of the increments, or empty
+        unsigned int       failures = 0; // in a row
+        const unsigned int most = std::max(most_increments, 2 * path.increments(stage));
         for (unsigned int n = path.increments(stage);; n *= 2)
         {
           const ContactResult work = state.contact;
@@ -213,9 +214,12 @@ namespace Voussoir
           state.contact = work;
           gap = start.gap;
           water = copy_of(start.water);
-          const bool converged = advance(n), is_last = 2 * n > most_increments;
-          if (!converged && is_last)
+          const bool converged = advance(n), is_last = 2 * n > most;
+          failures = converged ? 0 : failures + 1;
+          if (!converged && (is_last || failures == most_failures))
             throw_failure();
+          if (converged && !path.depends_on_increments())
+            return report();
           const double change = converged && !coarse.empty() ? largest_difference(state.u, coarse) : INFINITY,
                        limit = path_tolerance * largest_difference(state.u, {});
           coarse = converged ? state.u : Unknowns();
@@ -394,14 +398,18 @@ namespace Voussoir
       /** Returns the end of a message about blocks that slide under the weight alone: the reason, and what to do. */
       std::string under_weight(const std::vector<const Body *> &moving) const
       {
-        return " under the weight alone, " +
-               std::string(grouted == -INFINITY ? "free-standing"
-                                                : "with the joints that are grouted before the first load") +
+        const bool has_lifts = grouted < INFINITY;
+        return " under the weight alone, with " +
+               std::string(!has_lifts             ? "all joints closed"
+                           : grouted == -INFINITY ? "joints that are not grouted (free-standing)"
+                                                  : "the joints that are grouted before the first load") +
                "." + slopes_of_base(dam, moving) +
-               " Begin \"Statics/Stages\" with grout up to the height of these monoliths, or remove the lifts and set "
-               "\"Statics/Self-weight\" = monolithic (the weight of the finished dam), or check the friction "
-               "(\"Joints/Friction\"), or bond the base or lift joints (\"Joints/Overrides\" = base: tied, lift: "
-               "tied).";
+               (has_lifts
+                    ? " Begin \"Statics/Stages\" with grout up to the height of these monoliths, or remove the lifts "
+                      "and set \"Statics/Self-weight\" = monolithic (the weight of the finished dam), or check"
+                    : " Check") +
+               " the friction (\"Joints/Friction\"), or bond the base or lift joints (\"Joints/Overrides\" = base: tied, "
+               "lift: tied).";
       }
 
       /** Returns the message for the forces that hold the moving blocks. */
@@ -474,9 +482,17 @@ namespace Voussoir
         message << "step " << i + 1 << " of " << n << "." << largest_error(dam.structure, result)
                 << " The residual is " << result.residual << " of the joint forces and "
                 << result.residual_over_load << " of the load (limit " << parameters.tolerance
-                << ", from \"Contact/Tolerance\"), after " << result.iterations
-                << " Newton steps. Increase \"Statics/Water increments\" or \"Contact/Maximum "
-                   "iterations\".";
+                << ", from \"Contact/Tolerance\"), after " << result.iterations << " Newton steps. ";
+        const double share = result.residual / parameters.tolerance;
+        if (result.iterations == 0 || share < 1e3) // near the round-off, or no step is possible
+          message << "More increments or iterations will not help. Set \"Contact/Tolerance\" to "
+                  << dam.scene.contact.tolerance * std::pow(10., std::ceil(std::log10(share)))
+                  << ", or \"Contact/Method\" to proximal.";
+        else if (path.depends_on_increments())
+          message
+              << "The increments were halved already. Increase \"Contact/Maximum iterations\", or divide the stage.";
+        else
+          message << "Increase \"Statics/Water increments\" or \"Contact/Maximum iterations\".";
         return message.str();
       }
 
