@@ -218,7 +218,8 @@ namespace
     read_scene("warnings.prm", {}, scene, of_classes);
     expect(scene.warnings.size() == 2 && scene.warnings[0].kind == Warning::Kind::physics &&
                scene.warnings[0].place == "warnings.prm, line 6" &&
-               scene.warnings[1].kind == Warning::Kind::input && scene.warnings[1].place == "warnings.prm, line 2",
+               scene.warnings[1].kind == Warning::Kind::input &&
+               scene.warnings[1].place == "warnings.prm, line 2",
            "class and place of warnings");
 
     const std::vector<Warned> cases = {

@@ -266,9 +266,8 @@ namespace Voussoir
                       Integer(1, 1000));
     prm.add_parameter("Elements through", elements_through,
                       "Number of elements from the upstream to the downstream face [-].", Integer(1, 100));
-    prm.add_parameter(
-        "Base joint", base_joint,
-        "true: the base is a joint with the law of section Joints, on every foundation.");
+    prm.add_parameter("Base joint", base_joint,
+                      "true: the base is a joint with the law of section Joints, on every foundation.");
     prm.add_parameter(
         "Lift joints", lift_joints,
         "Number of horizontal lift joints, at equal distances between bottom and crest [-]. A monolith has those that "
