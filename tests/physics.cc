@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loads, stresses, places, oscillators and rock against closed forms. Usage: physics loads|model|newmark|rock
 
+#include <deal.II/base/point.h>
+
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/dam_loads.h>

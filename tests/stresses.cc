@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stresses where tractions are known: on faces, edges and corners, and at joints.
 
+#include <deal.II/base/point.h>
+
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/face_pressure.h>
 #include <voussoir/dam/load_table.h>
