@@ -200,7 +200,7 @@ namespace
 
   // Elements and stresses
 
-  Unknowns field(const SolidModel &model, const std::function<Vector3(const dealii::Point<3> &)> &u)
+  Unknowns field(const SolidModel &model, const std::function<Vector3(const Vector3 &)> &u)
   {
     Unknowns result(3 * std::size_t(model.first_equation.back()));
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
@@ -211,8 +211,8 @@ namespace
   }
 
   void expect_stress(const SolidModel &model, const std::vector<Stress> &stress,
-                     const std::function<std::array<double, 6>(const dealii::Point<3> &)> &exact,
-                     const double size, const std::string &what)
+                     const std::function<std::array<double, 6>(const Vector3 &)> &exact, const double size,
+                     const std::string &what)
   {
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
       for (unsigned int c = 0; c < 6; ++c)
@@ -239,7 +239,7 @@ namespace
       std::vector<Stress>  stress;
       const StressRecovery recovery(model, {m}, true);
       recovery.apply(field(model,
-                           [&](const dealii::Point<3> &x) {
+                           [&](const Vector3 &x) {
                              return Vector3{{e[0] * x[0] + e[3] * x[1], e[1] * x[1] + e[4] * x[2],
                                              e[2] * x[2] + e[5] * x[0]}};
                            }),
@@ -247,7 +247,7 @@ namespace
       const double trace = e[0] + e[1] + e[2];
       expect_stress(
           model, stress,
-          [&](const dealii::Point<3> &)
+          [&](const Vector3 &)
           {
             return std::array<double, 6>{{lambda * trace + 2. * mu * e[0], lambda * trace + 2. * mu * e[1],
                                           lambda * trace + 2. * mu * e[2], mu * e[3], mu * e[4], mu * e[5]}};
@@ -257,7 +257,7 @@ namespace
       const Structure structure = assemble_structure(model, {m}, true);
       Unknowns        force;
       structure.multiply_stiffness(field(model,
-                                         [&](const dealii::Point<3> &x) {
+                                         [&](const Vector3 &x) {
                                            return Vector3{{e[0] * x[0], e[1] * x[1] + e[4] * x[2], 0.}};
                                          }),
                                    force);
@@ -274,7 +274,7 @@ namespace
     std::vector<Stress> stress;
     StressRecovery(model, {m}, true)
         .apply(field(model,
-                     [&](const dealii::Point<3> &p)
+                     [&](const Vector3 &p)
                      {
                        const double x = p[0] - 5., y = p[1] - 10., z = p[2] - 15.;
                        return Vector3{{-.5 * curvature * (z * z + m.poisson * (x * x - y * y)),
@@ -283,7 +283,7 @@ namespace
                {}, stress);
     expect_stress(
         model, stress,
-        [&](const dealii::Point<3> &p) {
+        [&](const Vector3 &p) {
           return std::array<double, 6>{{0., 0., m.young * curvature * (p[0] - 5.), 0., 0., 0.}};
         },
         m.young * curvature * 5., "pure bending of a brick");
@@ -354,7 +354,7 @@ namespace
     const DamGeometry geometry(model, pairs, 1, "of the test");
     for (const double y : {0., 3., 10., 17., 20.})
       for (const double x : {0., 5.})
-        expect(std::abs(geometry.arc_length(dealii::Point<3>(x, y, 11.)) - (y - 10.)) < 1e-12, "arc length");
+        expect(std::abs(geometry.arc_length(Vector3{{x, y, 11.}}) - (y - 10.)) < 1e-12, "arc length");
     expect(std::abs(geometry.joints[0].arc_length + 2.) < 1e-12, "arc length of the joint");
     const auto place = [&](const unsigned int pair) { return pairs[pair].place; };
     expect(place(geometry.joints[0].upstream)[0] == 0. && place(geometry.joints[0].upstream)[2] == tall &&
@@ -363,8 +363,8 @@ namespace
            "the joint's pairs at the crest");
     const auto &crown = model.points[geometry.crown];
     expect(crown[0] == 0. && crown[2] == tall && std::abs(crown[1] - 10.) <= 2., "crown");
-    const auto &near = model.points[nearest_node(model, dealii::Point<3>(9.6, 4.3, 14.))];
-    expect(near.distance(dealii::Point<3>(10., 4., 15.)) < 1e-12, "the nearest node");
+    const auto &near = model.points[nearest_node(model, Vector3{{9.6, 4.3, 14.}})];
+    expect(distance_between(near, {{10., 4., 15.}}) < 1e-12, "the nearest node");
   }
 
   /** The same mesh with its nodes and cells numbered in reverse, or with nodes moved by some 1e-9 m. */

@@ -29,7 +29,7 @@ namespace
 {
   constexpr double thick = 10., wide = 20., tall = 30.;
 
-  Unknowns field(const SolidModel &model, const std::function<Vector3(const dealii::Point<3> &)> &u)
+  Unknowns field(const SolidModel &model, const std::function<Vector3(const Vector3 &)> &u)
   {
     Unknowns result(3 * std::size_t(model.first_equation.back()));
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
@@ -66,7 +66,7 @@ namespace
       model.free_base();
       const Unknowns u = field(
           model,
-          [&](const dealii::Point<3> &x) {
+          [&](const Vector3 &x) {
             return Vector3{{e[0] * x[0] + e[3] * x[1], e[1] * x[1] + e[4] * x[2], e[2] * x[2] + e[5] * x[0]}};
           });
       const std::vector<NodeFace> faces = faces_at_nodes(model);
@@ -140,7 +140,7 @@ namespace
     model.free_base();
     const double          A = -p * b * b / (b * b - a * a), B = a * a * A; // s_r = A - B/r^2, s_t = A + B/r^2
     const Unknowns        u = field(model,
-                                    [&](const dealii::Point<3> &x)
+                                    [&](const Vector3 &x)
                                     {
                                const double r = std::hypot(x[0], x[1]);
                                const double radial =
@@ -198,7 +198,7 @@ namespace
     SolidModel model(Grids::wall({{thick, wide, tall}}, {{4, 8, 3}}, 8, bent), 2);
     model.free_base();
     const Unknowns      u = field(model,
-                                  [&](const dealii::Point<3> &x)
+                                  [&](const Vector3 &x)
                                   {
                                const double r = std::hypot(x[0], x[1]);
                                const double radial = (1. + nu) / m.young * ((1. - 2. * nu) * A * r + B / r);
@@ -263,7 +263,7 @@ namespace
       model.free_base();
       Unknowns u = field(
           model,
-          [&](const dealii::Point<3> &x) {
+          [&](const Vector3 &x) {
             return Vector3{{e[0] * x[0] + e[3] * x[1], e[1] * x[1] + e[4] * x[2], e[2] * x[2] + e[5] * x[0]}};
           });
       const StressRecovery recovery(model, {m}, true);
@@ -318,7 +318,7 @@ namespace
     for (unsigned int t = 0; t < n; ++t)
     {
       const Unknowns             u = field(model,
-                                           [&](const dealii::Point<3> &x)
+                                           [&](const Vector3 &x)
                                            {
                                  return Vector3{{1e-3 * std::sin(x[1] + 3. * t), 1e-3 * std::cos(x[2] * t),
                                                  1e-3 * std::sin(x[0] - 2. * t)}};
@@ -348,7 +348,7 @@ namespace
 
     std::stringstream file; // the archive has the recorded state of together, but not that of loaded
     EnvelopeRecorder  loaded(recovery, none);
-    const Unknowns large = field(model, [](const dealii::Point<3> &x) { return Vector3{{x[2], 0., x[2]}}; });
+    const Unknowns    large = field(model, [](const Vector3 &x) { return Vector3{{x[2], 0., x[2]}}; });
     loaded.record(9., large, {});
     together.record(8., large, {});
     boost::archive::binary_oarchive(file) << std::as_const(together);
@@ -575,7 +575,7 @@ namespace
                        1);
     model.free_base();
     const Unknowns      u = field(model,
-                                  [&](const dealii::Point<3> &x)
+                                  [&](const Vector3 &x)
                                   {
                                const double k = slope / m.young, z = x[2] - tall;
                                return Vector3{{-m.poisson * k * z * x[0], -m.poisson * k * z * x[1],
@@ -610,7 +610,7 @@ namespace
     const InitialStrain free = initial_strain(model, {m}, true, strain, true);
     const Unknowns      u =
         field(model,
-              [](const dealii::Point<3> &x)
+              [](const Vector3 &x)
               {
                 const double e = 1e-5 * (3. + x[2]);
                 return Vector3{{e * x[0], e * x[1],
@@ -643,8 +643,8 @@ namespace
     Tractions tractions(
         model, structure, [](int, double, const Vector3 &) { return Vector3{}; }, {}, {},
         added_mass_per_area(model, water));
-    const auto acceleration = [&](const dealii::Point<3> &x) { return Vector3{{-2. + .1 * x[1], .7, 1.3}}; };
-    const Unknowns             a = field(model, acceleration);
+    const auto     acceleration = [&](const Vector3 &x) { return Vector3{{-2. + .1 * x[1], .7, 1.3}}; };
+    const Unknowns a = field(model, acceleration);
     const std::vector<Vector3> still = tractions.at({}), moved = tractions.at({}, a);
     std::vector<Vector3>       of_node(model.n_nodes());
     double                     worst = 0.;
