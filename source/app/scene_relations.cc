@@ -151,9 +151,13 @@ namespace Voussoir
 
   std::vector<std::string> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries)
   {
-    std::vector<std::string> warnings = {
-        rare_envelopes(scene),    level_of_another_dam(scene, entries), other_day(scene),
-        odd_factors(scene.loads), undefined_loads(scene, entries),      stiff_sustained(scene)};
+    std::vector<std::string> warnings = {rare_envelopes(scene),
+                                         level_of_another_dam(scene, entries),
+                                         other_day(scene),
+                                         odd_factors(scene.loads),
+                                         undefined_loads(scene, entries),
+                                         stiff_sustained(scene),
+                                         assumed_static_strength(scene.limits)};
     add_levels_above_the_reservoir(scene, warnings);
     if (scene.reservoir.kind() != scene.reservoir.model)
       warnings.push_back(
