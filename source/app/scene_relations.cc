@@ -151,9 +151,13 @@ namespace Voussoir
 
   std::vector<Warning> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries)
   {
-    std::vector<std::string> texts = {
-        rare_envelopes(scene),    level_of_another_dam(scene, entries), other_day(scene),
-        odd_factors(scene.loads), undefined_loads(scene, entries),      stiff_sustained(scene)};
+    std::vector<std::string> texts = {rare_envelopes(scene),
+                                      level_of_another_dam(scene, entries),
+                                      other_day(scene),
+                                      odd_factors(scene.loads),
+                                      undefined_loads(scene, entries),
+                                      stiff_sustained(scene),
+                                      assumed_static_strength(scene.limits)};
     add_levels_above_the_reservoir(scene, texts);
     if (!is_written(entries, "Motion/Unit"))
       texts.push_back(unit_warning(scene.motion, scene.directory));
