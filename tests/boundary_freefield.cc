@@ -323,8 +323,7 @@ namespace
       for (unsigned int j = 0; j < nodes.size(); ++j)
         for (unsigned int k = 0; k < 3 * n_below; ++k)
         {
-          const std::size_t first = 3 * std::size_t(n_below),
-                            here = first * line_of[nodes[j]] + k,
+          const std::size_t first = 3 * std::size_t(n_below), here = first * line_of[nodes[j]] + k,
                             next = first * line_of[nodes[j] + n_along] + k,
                             node = first * models[0].lines.size() + 3 * j + k;
           const double mean = .5 * (u[1][here] + u[1][next]);
