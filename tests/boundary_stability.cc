@@ -183,18 +183,19 @@ namespace
       unsigned int layers;   // at the dam
       std::string  proposal; // of the damping, in time steps; "-": accepted
     };
-    for (const Case &c : std::vector<Case>{{"mtf3", .4, .005, .99, 3, "(0.02 "},
-                                           {"mtf3", .4, .005, .975, 3, "(0.0"},
-                                           {"mtf3", .4, .005, .9, 3, "-"},
-                                           {"mtf3", .4, .02, .99, 3, "-"},
-                                           {"mtf3", .45, .01, .99, 3, "(0.02 "},
-                                           {"mtf3", .38, .01, .9999, 0, "(0.02 "},
-                                           {"mtf2", .36, .005, .9999, 3, "(0.0"},
-                                           {"mtf2", .36, .02, .9999, 3, "-"},
-                                           {"mtf4", .45, .01, .99, 3, "Set \"Foundation/Boundary\" to viscous"},
-                                           {"mtf3", .329, 0., .99, 3, "(0.0"},
-                                           {"mtf3", .32, 0., .99, 3, "(0.0"},
-                                           {"mtf3", .29, 0., .99, 0, "-"}})
+    for (const Case &c :
+         std::vector<Case>{{"mtf3", .4, .005, .99, 3, "(0.02 "},
+                           {"mtf3", .4, .005, .975, 3, "(0.0"},
+                           {"mtf3", .4, .005, .9, 3, "-"},
+                           {"mtf3", .4, .02, .99, 3, "-"},
+                           {"mtf3", .45, .01, .99, 3, "(0.02 "},
+                           {"mtf3", .38, .01, .9999, 0, "(0.02 "},
+                           {"mtf2", .36, .005, .9999, 3, "(0.0"},
+                           {"mtf2", .36, .02, .9999, 3, "-"},
+                           {"mtf4", .45, .01, .99, 3, "Set \"Foundation/Boundary\" to viscous"},
+                           {"mtf3", .329, 0., .99, 3, "(0.0"},
+                           {"mtf3", .32, 0., .99, 3, "(0.0"},
+                           {"mtf3", .29, 0., .99, 0, "-"}})
     {
       auto p = parameters(c.boundary);
       p.rock.materials[rock] = unit_rock(c.poisson);
