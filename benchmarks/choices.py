@@ -163,9 +163,10 @@ def study(name, options):
     with tempfile.TemporaryDirectory() as directory:
         runs = Runs(options, scene, common, directory)
         reference = runs.measure(best)
-        results = []
+        results, each = [], []
         for curve, label, settings in rows:
             openings, tensions, summary = runs.measure(settings)
+            each.append(openings)
             results.append((curve, str(label), summary["seconds"]["shaking_cpu"] / runs.duration,
                             error(openings, reference[0]), error(tensions, reference[1]),
                             summary["newton_iterations"]["mean"],
@@ -174,6 +175,10 @@ def study(name, options):
           + "---|" * 7)
     for curve, label, cost, o, t, newton, balance in results:
         print(f"| {curve} | {label} | {cost:.2f} | {100 * o:.2g} % | {100 * t:.2g} % | {newton:.2f} | {balance:.0e} |")
+    if name.startswith("box"):
+        print("\nLargest openings [mm]; the last row is the reference\n")
+        for label, openings in [(label, o) for (_, label, _), o in zip(rows, each)] + [("", reference[0])]:
+            print(f"| {label} | " + " | ".join(f"{1e3 * x:.3f}" for x in openings) + " |")
     if name in CHARTS:
         draw(name, what, results)
 

@@ -283,6 +283,60 @@ namespace
       note(what + ": variation along the valley / peak", error / peak);
   }
 
+  /** Grid lines that are bent across the valley, as below an arch dam: bottom nodes halfway between those of
+   * the section have the mean motion of both. */
+  void bent_lines()
+  {
+    auto p = parameters("mtf2", true);
+    p.dt = .13;
+    p.free_field = "sections";
+    const auto bent = [](const double i, const double j, const double k)
+    {
+      const Vector3 straight = valley(i, j, k);
+      return Vector3{{straight[0], straight[1] + (i == 6. && j > 0. && j < 20. ? .5 : 0.), straight[2]}};
+    };
+    constexpr unsigned int    n_along = 13, n_below = 5; // nodes along x; of a line
+    std::vector<unsigned int> lines;                     // bent ones of the bottom
+    std::vector<Unknowns>     u(2);                      // bent, straight
+    std::vector<double>       error(2, 0.), peak(2, 0.);
+    std::vector<RockModel>    models = {make_rock_model(box({12, 20, 14}, open_box, bent), p.rock),
+                                        make_rock_model(box({12, 20, 14}, open_box, valley), p.rock)};
+    std::vector<unsigned int> line_of(models[0].points.size(), no_node), nodes;
+    for (unsigned int l = 0; l < models[0].lines.size(); ++l)
+      line_of[models[0].lines[l].nodes[0]] = l;
+    for (unsigned int j = 1; j < 19; ++j)
+      nodes.push_back(j * n_along + 6);
+    std::vector<std::unique_ptr<FreeField>> fields;
+    for (const RockModel &model : models)
+    {
+      fields.push_back(make_free_field(model, p, pulse, 900));
+      fields.back()->add_lines(model, n_below);
+      fields.back()->add_nodes(model, nodes);
+    }
+    for (unsigned int i = 0; i < 900; ++i)
+    {
+      for (unsigned int f = 0; f < 2; ++f)
+      {
+        fields[f]->advance();
+        fields[f]->evaluate(u[f]);
+      }
+      for (unsigned int j = 0; j < nodes.size(); ++j)
+        for (unsigned int k = 0; k < 3 * n_below; ++k)
+        {
+          const std::size_t first = 3 * std::size_t(n_below), here = first * line_of[nodes[j]] + k,
+                            next = first * line_of[nodes[j] + n_along] + k,
+                            node = first * models[0].lines.size() + 3 * j + k;
+          const double mean = .5 * (u[1][here] + u[1][next]);
+          error[0] = larger(error[0], std::abs(u[0][here] - mean));
+          if (k < 3)
+            error[1] = larger(error[1], std::abs(u[0][node] - mean));
+          peak[0] = larger(peak[0], std::abs(mean));
+        }
+    }
+    below("bottom lines bent across the valley: off the section / peak", error[0] / peak[0], .01);
+    below("  nodes of viscous boundaries", error[1] / peak[0], .01);
+  }
+
   /** A valley that changes along x: FreeField::upstream() has the motion of the free field at the nodes
    * with the smallest x. */
   void varying_valley()
@@ -444,6 +498,7 @@ int main()
                            [] { prismatic("sections", true); },
                            [] { prismatic("sections", false); },
                            [] { prismatic("columns", true); },
+                           bent_lines,
                            varying_valley,
                            width_of_zone});
 }

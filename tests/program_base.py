@@ -354,7 +354,10 @@ def arch():
         runs("scene.prm", "--output", name, *ARCH, *BASE, *settings("Motion/Duration=0.3", *more))
     nodes = [summary(name)["mesh"]["nodes"] for name in ("alone", "with_rock")]
     expect(nodes[0] == nodes[1], f"footings on a rigid base: {nodes} nodes")
+    same_to_the_bit("alone", "with_rock")
     runs("scene.prm", "--output", "bonded", *ARCH)
+    runs("scene.prm", "--output", "bonded_with_rock", *ARCH, *settings("Mesh/Arch210/Rock/Enabled=true"))
+    same_to_the_bit("bonded", "bonded_with_rock")
     runs("scene.prm", "--output", "tied", *ARCH, *BASE, *settings("Joints/Overrides=base: tied"))
     same_to_the_bit_but_joints("bonded", "tied")
     for name, more in (("bonded_rock", ()), ("tied_rock", (*BASE, *settings("Joints/Overrides=base: tied")))):

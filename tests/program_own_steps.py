@@ -5,6 +5,7 @@
     program_own_steps.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
+import re
 import signal
 import subprocess
 import time
@@ -128,6 +129,17 @@ def entries():
                                                              f"Foundation/Substeps={m}")], "Foundation/Model")
     refused(["scene.prm", "--validate", *ROCK, *settings("Foundation/Substeps=50", "Dynamics/Steps per sample=1")],
             "layers", "Foundation/Substeps")
+    large = settings("Foundation/Substeps=1", "Dynamics/Steps per sample=1")
+    refused(["scene.prm", "--validate", *ROCK, *large], "Steps per sample", "\"Foundation/Substeps\" to")
+    for other in ("Dynamics/Impact=paper", "Foundation/Coupling=partition"):  # these exclude substeps
+        message = refused(["scene.prm", "--validate", *ROCK, *large, *settings(other)], "Steps per sample")
+        expect("Substeps" not in message and "Coupling" not in message, message)
+    near = [*ROCK, *settings("Mesh/Arch210/Joints=2", "Mesh/Arch210/Elements along=9", "Mesh/Arch210/Elements up=4", "Mesh/Arch210/Elements through=2",
+                             *(f"Mesh/Arch210/Rock/{side}=100" for side in ("Upstream", "Downstream", "Sides", "Depth")))]
+    shown = runs("scene.prm", "--validate", *near, *settings("Foundation/Substeps=0", "Dynamics/Steps per sample=1"))
+    steps = int(re.search(r"(\d+) rock steps", shown).group(1))  # the boundary requires more of them than the critical time step
+    refused(["scene.prm", "--validate", *near, *settings(f"Foundation/Substeps={steps - 1}", "Dynamics/Steps per sample=1")],
+            "artificial boundary", "node spacing", f"\"Foundation/Substeps\" to {steps}")
 
 
 if __name__ == "__main__":

@@ -90,6 +90,7 @@ def refused(arguments, *parts):
         expect(part in message, f"'{part}' is missing: {what}")
     expect(not re.search(r"\w\.(cc|h)\b|exception|deal\.II", message), f"speaks of the code: {what}")
     print("   ", message.strip()[17:])
+    return message
 
 
 def write_scene(name="scene.prm", extra=""):

@@ -97,7 +97,9 @@ namespace Voussoir
       const std::string format = arguments.value("--format", "4.1");
       if (format != "4.1" && format != "2.2")
         throw InputError("--format must be 4.1 or 2.2, not \"" + format + "\".");
-      const HexMesh mesh = scene.hex_mesh();
+      const ArchRockParameters *rock = scene.mesh.generated_rock();
+      const HexMesh             mesh =
+          rock != nullptr && rock->enabled ? make_mesh(scene.mesh, scene.directory) : scene.hex_mesh();
       check_axes_and_units(mesh, scene.mesh, scene.mesh.file);
       write_gmsh(mesh, arguments.value("--output"), format == "2.2" ? 2.2 : 4.1);
       print_mesh(mesh);

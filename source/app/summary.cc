@@ -167,7 +167,7 @@ namespace Voussoir
 
     Json json_of_memory(const Scene &scene)
     {
-      const MemoryNeed need = memory_need(scene, make_mesh(scene.mesh, scene.directory));
+      const MemoryNeed need = memory_need(scene, scene.hex_mesh());
       Json             json;
       json.add("run", need.run).add("other_ranks", need.of_others).add("halved_step", need.halved_step);
       return json;

@@ -230,9 +230,12 @@
     choose_laws(tie_all);
     if (!tied || scene.statics.self_weight == "staged")
       check_base(opened, source);
-    foundation = make_foundation({scene.foundation, mesh, source, scene.elements.degree,
-                                  scene.elements.incompatible_modes, is_one_body(scene, tied),
-                                  scene.mesh.source == "file" ? "" : scene.mesh.section()});
+    FoundationParameters founded = scene.foundation;
+    if (founded.coupling == "auto" && scene.impact_rule != "mean-force")
+      founded.coupling = "partition"; // the other coupling requires mean forces
+    foundation =
+        make_foundation({founded, mesh, source, scene.elements.degree, scene.elements.incompatible_modes,
+                         is_one_body(scene, tied), scene.mesh.source == "file" ? "" : scene.mesh.section()});
     neighbours = {foundation.get()};
     const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
     materials = materials_of(mesh.zones, scene.concrete, listed);

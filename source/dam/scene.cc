@@ -431,8 +431,8 @@ namespace Voussoir
   HexMesh Scene::hex_mesh() const
   {
     MeshParameters parameters = mesh;
-    if (foundation_reads(foundation.model, "Foundation/Young's modulus"))
-      parameters.arch210_rock.enabled = parameters.arcs_rock.enabled = true;
+    parameters.arch210_rock.enabled = parameters.arcs_rock.enabled =
+        foundation_reads(foundation.model, "Foundation/Young's modulus");
     return make_mesh(parameters, directory);
   }
 

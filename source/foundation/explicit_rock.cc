@@ -102,6 +102,7 @@ namespace Voussoir
     release_free_memory();
     dt_critical = Voussoir::critical_time_step(largest_frequency(make_operator(model), model.mass),
                                                region_parameters(parameters, centre, 0.).damping);
+    dt_boundary = largest_boundary_step(parameters, model);
   }
 
   namespace
@@ -212,12 +213,12 @@ namespace Voussoir
 
   unsigned int ExplicitRock::needed_substeps(const double dt) const
   {
-    return std::clamp(std::ceil(dt / dt_critical), 1., 100.);
+    return std::clamp(std::ceil(dt / std::min(dt_critical, dt_boundary)), 1., 100.);
   }
 
   void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
-    check_rock_step(steps, steps_per_sample, dt_critical, parameters.quality > 0.);
+    check_rock_step(parameters, steps, steps_per_sample, dt_critical, dt_boundary);
     const RockRegionParameters region_at = region_parameters(parameters, centre, steps.substep());
     check_boundary(parameters, region_at, model, rock_nodes(at_base), dt_critical);
     check_waves(model, region_at);

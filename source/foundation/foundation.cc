@@ -48,7 +48,7 @@ namespace Voussoir
     prm.add_parameter(
         "Substeps", substeps,
         "Number of explicit rock time steps per time step of the dam [-]. 0: as many as the critical "
-        "time step of the rock requires, if \"Coupling\" is auto and \"Dynamics/Impact\" is "
+        "time step of the rock and the boundary require, if \"Coupling\" is auto and \"Dynamics/Impact\" is "
         "mean-force; otherwise 1.",
         Integer(0, 100));
     prm.add_parameter(

@@ -101,19 +101,35 @@ namespace Voussoir
     throw InputError(message.str());
   }
 
-  void check_rock_step(const TimeGrid &grid, const unsigned int steps_per_sample, const double dt_critical,
-                       const bool has_quality)
+  double largest_boundary_step(const FoundationParameters &parameters, const RockModel &model)
   {
-    const double rock_dt = grid.substep();
-    if (rock_dt <= dt_critical) // false for NaN
+    double step = make_boundary(parameters.boundary)->largest_step(model);
+    if (has_other_sections(parameters))
+      step = std::min(step, make_boundary(boundary_of_sections(parameters))->largest_step(model));
+    return step;
+  }
+
+  void check_rock_step(const FoundationParameters &parameters, const TimeGrid &grid,
+                       const unsigned int steps_per_sample, const double dt_critical,
+                       const double dt_boundary)
+  {
+    const double rock_dt = grid.substep(), largest = std::min(dt_critical, dt_boundary);
+    if (rock_dt <= largest) // false for NaN
       return;
     std::ostringstream message;
-    message << beyond_critical_step(rock_dt, dt_critical) << " Increase \"Dynamics/Steps per sample\" to "
-            << std::ceil(steps_per_sample * rock_dt / dt_critical) << " or \"Foundation/Substeps\" to "
-            << std::ceil(grid.dt / dt_critical)
-            << " (with \"Foundation/Coupling\" = auto and "
-               "\"Dynamics/Impact\" = mean-force), enlarge the rock elements, "
-            << (has_quality ? "increase \"Foundation/Quality factor\", " : "")
+    if (rock_dt <= dt_critical)
+      message << "The time step " << rock_dt
+              << " s is too large for the artificial boundary of the rock: in a "
+              << "step, its fastest wave travels more than the node spacing. The limit is " << dt_boundary
+              << " s.";
+    else
+      message << beyond_critical_step(rock_dt, dt_critical);
+    message << " Increase \"Dynamics/Steps per sample\" to "
+            << std::ceil(steps_per_sample * rock_dt / largest);
+    if (parameters.coupling != "partition")
+      message << " or \"Foundation/Substeps\" to " << std::ceil(grid.dt / largest);
+    message << ", enlarge the rock elements, "
+            << (parameters.quality > 0. ? "increase \"Foundation/Quality factor\", " : "")
             << "or reduce \"Foundation/Stiffness damping\".";
     throw InputError(message.str());
   }

@@ -15,8 +15,8 @@ namespace Voussoir
     prm.enter_subsection("Rock");
     prm.add_parameter(
         "Enabled", enabled,
-        "true: the mesh includes the rock around the dam, also if Foundation/Model is rigid. With "
-        "another foundation it always does.",
+        "true: the mesh of `voussoir mesh` includes the rock around the dam, also if Foundation/Model is rigid. "
+        "With another foundation every mesh does.",
         Bool());
     const std::string from = std::string(" [m], from the outermost base nodes of the dam to the artificial "
                                          "boundary.") +

@@ -3,6 +3,7 @@
 #include <voussoir/rock/artificial_boundary.h>
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace Voussoir
@@ -12,6 +13,11 @@ namespace Voussoir
   std::string ArtificialBoundary::warning(const RockRegionParameters &) const
   {
     return "";
+  }
+
+  double ArtificialBoundary::largest_step(const RockModel &) const
+  {
+    return std::numeric_limits<double>::infinity();
   }
 
   void ArtificialBoundary::check_prescribed(const std::vector<unsigned int> &) const {}

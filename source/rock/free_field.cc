@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/base/parallel.h>
-#include <voussoir/mesh/coincident.h>
 #include <voussoir/rock/arrival.h>
 #include <voussoir/rock/free_field.h>
 #include <voussoir/rock/free_field_column.h>
 #include <voussoir/rock/oblique_column.h>
+#include <voussoir/rock/section_nodes.h>
 
 #include <algorithm>
 #include <cmath>
@@ -20,13 +20,7 @@ namespace Voussoir
     std::vector<std::unique_ptr<SectionMotion>> motions;
     unsigned int                                direction;
     double                                      plane; ///< coordinate along the direction [m]
-    std::unique_ptr<PointFinder>                nodes; ///< nodes projected along the direction
-
-    Vector3 projected(Vector3 place) const
-    {
-      place[direction] = 0.;
-      return place;
-    }
+    SectionNodes                                nodes;
 
     Vector3 displacement(const unsigned int node, const Vector3 &place) const
     {
@@ -124,30 +118,22 @@ namespace Voussoir
 
   FreeField::~FreeField() = default;
 
-  void FreeField::add_section(const RockModel &model, std::vector<std::unique_ptr<SectionMotion>> motions,
-                              const unsigned int direction)
+  void FreeField::add_section(const RockModel &section, const RockModel &rock,
+                              std::vector<std::unique_ptr<SectionMotion>> motions,
+                              const unsigned int                          direction)
   {
-    auto section = std::make_unique<Section>();
-    section->points = model.points;
-    section->motions = std::move(motions);
-    section->direction = direction;
-    section->plane = section->points.front()[direction];
-    double               size = 0.;
-    std::vector<Vector3> places;
-    for (const Vector3 &p : section->points)
-    {
-      size = std::max(size, std::abs(p[2] - section->points.front()[2]));
-      places.push_back(section->projected(p));
-    }
-    section->nodes = std::make_unique<PointFinder>(places, 1e-6 * size);
-    sections.push_back(std::move(section));
+    sections.push_back(std::unique_ptr<Section>(new Section{section.points,
+                                                            std::move(motions),
+                                                            direction,
+                                                            section.points.front()[direction],
+                                                            {section, direction, rock}}));
   }
 
   FreeField::Point FreeField::at_level(const unsigned int column, const int level, const Vector3 &place)
   {
     if (!columns[column])
       columns[column] = make_column(grounds[column]);
-    return {nullptr, no_node, column, {{level}}, {{1., 0., 0., 0.}}, place};
+    return {nullptr, column, {{level}}, {{1., 0., 0., 0.}}, place};
   }
 
   FreeField::Point FreeField::in_column(const unsigned int column, const Vector3 &place)
@@ -173,29 +159,18 @@ namespace Voussoir
     return point;
   }
 
-  bool FreeField::in_section(const std::array<double, 3> &place, Point &point) const
+  bool FreeField::in_section(const Vector3 &place, Point &point) const
   {
-    const Section *nearest = nullptr;
-    unsigned int   node = no_node;
+    point = Point();
     for (const auto &section : sections)
     {
       const auto distance = [&](const Section &s) { return std::abs(place[s.direction] - s.plane); };
-      if (nearest != nullptr && distance(*nearest) <= distance(*section))
+      if (point.section != nullptr && distance(*point.section) <= distance(*section))
         continue;
-      const unsigned int found = section->nodes->find(section->projected(place));
-      if (found != PointFinder::none)
-      {
-        nearest = section.get();
-        node = found;
-      }
+      if (const auto found = section->nodes.find(place))
+        point = {section.get(), no_node, found->node, found->weight, place};
     }
-    if (nearest == nullptr)
-      return false;
-    point = Point();
-    point.section = nearest;
-    point.node = node;
-    point.place = place;
-    return true;
+    return point.section != nullptr;
   }
 
   FreeField::Point FreeField::of_line(const RockModel &model, const unsigned int line, const Vector3 &place)
@@ -343,13 +318,13 @@ namespace Voussoir
 
   Vector3 FreeField::displacement(const Point &point, const double later) const
   {
-    if (point.section != nullptr)
-      return point.section->displacement(point.node, point.place);
     Vector3 u{};
     for (unsigned int j = 0; j < 4; ++j)
       if (point.weight[j] != 0.)
       {
-        const Vector3 at = columns[point.column]->displacement(point.level[j], point.place, later);
+        const Vector3 at = point.section != nullptr
+                               ? point.section->displacement(point.level[j], point.place)
+                               : columns[point.column]->displacement(point.level[j], point.place, later);
         for (unsigned int c = 0; c < 3; ++c)
           u[c] += point.weight[j] * at[c];
       }

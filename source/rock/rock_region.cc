@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
-#include <voussoir/mesh/coincident.h>
 #include <voussoir/rock/arrival.h>
 #include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/oblique_section.h>
 #include <voussoir/rock/rock_region.h>
+#include <voussoir/rock/section_nodes.h>
 #include <voussoir/rock/zone_forces.h>
 
 #include <algorithm>
@@ -84,28 +84,19 @@ namespace Voussoir
     {
       if (split.is_trivial())
         return RockSplit();
-      RockSplit result(slice.points.size());
-      auto      places = slice.points;
-      double    size = 0.;
-      for (auto &p : places)
-      {
-        p[direction] = 0.;
-        size = std::max(size, std::abs(p[2] - places.front()[2]));
-      }
-      const PointFinder         finder(places, 1e-6 * size);
-      std::vector<unsigned int> on_slice; // node of the section per node of the model
-      for (auto p : model.points)
-      {
-        p[direction] = 0.;
-        on_slice.push_back(finder.find(p));
-      }
+      RockSplit                                       result(slice.points.size());
+      const SectionNodes                              nodes(slice, direction, model);
+      std::vector<std::optional<SectionNodes::Place>> on_slice; // per node of the model
+      for (const Vector3 &p : model.points)
+        on_slice.push_back(nodes.find(p));
       for (unsigned int r = 0; r < Ranks::size(); ++r)
       {
         const std::vector<bool>   near = stepped_or_near(model, split, r);
         std::vector<unsigned int> seen;
         for (unsigned int i = 0; i < on_slice.size(); ++i)
-          if (near[i] && on_slice[i] != PointFinder::none)
-            seen.push_back(on_slice[i]);
+          for (unsigned int j = 0; near[i] && on_slice[i] && j < 4; ++j)
+            if (on_slice[i]->weight[j] != 0.)
+              seen.push_back(on_slice[i]->node[j]);
         result.step(seen, r);
       }
       return result;
@@ -205,7 +196,7 @@ namespace Voussoir
         else
           motions.push_back(oblique_section(wide, slice, inner, plane, group.p, model, wave, n_steps));
       }
-      field.add_section(slice, std::move(motions), 0);
+      field.add_section(slice, model, std::move(motions), 0);
     }
   } // namespace
 

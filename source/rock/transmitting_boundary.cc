@@ -116,6 +116,15 @@ namespace Voussoir
     return text;
   }
 
+  double TransmittingBoundary::largest_step(const RockModel &model) const
+  {
+    double step = std::numeric_limits<double>::infinity();
+    for (const BoundaryLine &line : model.lines)
+      for (const TransmittingFactor &f : formula.factors)
+        step = std::min(step, smallest_spacing(line.position) / (f.p * line.c_p + f.s * line.c_s));
+    return step;
+  }
+
   void TransmittingBoundary::attach(const RockModel &model, const Vector3 &, const double dt)
   {
     double nearest = std::numeric_limits<double>::max();

@@ -235,7 +235,8 @@ namespace Voussoir
       if (!(structure.mass[i][0] > 0.))
         throw InputError(
             "An element of the mesh is so distorted that the mass of its node at " + model.place_of(i) +
-            " is not positive. Improve the shape of the elements, or set \"Elements/Degree\" to 1.");
+            " is not positive. Use smaller elements (in a generated dam: \"Elements along\", \"Elements up\") or "
+            "elements of a better shape, or set \"Elements/Degree\" to 1.");
     if (model.plane_strain)
       structure.decouple_y();
     return structure;

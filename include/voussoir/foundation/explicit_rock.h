@@ -49,8 +49,8 @@ namespace Voussoir
     /** Returns the critical time step of the rock, with its damping [s]; 0 before add_stiffness(). */
     double critical_time_step() const { return dt_critical; }
 
-    /** Returns the number of steps within the critical time step, at most 100 (check() refuses larger steps).
-     * */
+    /** Returns the number of steps within the limits of rock and boundary, at most 100 (check() refuses larger
+     * steps). */
     unsigned int needed_substeps(double dt) const override;
 
     /** Returns the free field of the section upstream, or of the highest column. It has its own
@@ -117,6 +117,7 @@ namespace Voussoir
     std::vector<BaseNode> at_base;          ///< base nodes, ascending by rock node
     Vector3               arrives{};        ///< arrival() [s]
     double                dt_critical = 0.; ///< critical time step of the rock [s]
+    double                dt_boundary = 0.; ///< largest_boundary_step() [s]
 
     std::unique_ptr<RockStaticState> static_state; ///< from add_stiffness() to start()
 

@@ -19,14 +19,19 @@ namespace Voussoir
    * with the artificial boundary. */
   void check_damping(const RockRegionParameters &region);
 
-  /** Throws InputError if the time step of the rock exceeds the critical one.
+  /** Returns the largest time step that the artificial boundaries of the rock and of the sections of the free
+   * field accept [s]. */
+  double largest_boundary_step(const FoundationParameters &parameters, const RockModel &model);
+
+  /** Throws InputError if the time step of the rock exceeds the critical one or that of the boundary.
    *
+   * @param parameters parameters of the input file
    * @param grid time steps of dam and rock
    * @param steps_per_sample time steps of the dam per sample of the ground motion
    * @param dt_critical critical time step of the rock [s]
-   * @param has_quality whether the rock has a quality factor, which reduces it */
-  void check_rock_step(const TimeGrid &grid, unsigned int steps_per_sample, double dt_critical,
-                       bool has_quality);
+   * @param dt_boundary largest_boundary_step() [s] */
+  void check_rock_step(const FoundationParameters &parameters, const TimeGrid &grid,
+                       unsigned int steps_per_sample, double dt_critical, double dt_boundary);
 
   /** Throws InputError if the artificial boundary would be unstable (ArtificialBoundary::check()) or is too
    * close to the base.

@@ -80,6 +80,9 @@ namespace Voussoir
 
     // On a mesh:
 
+    /** Returns the largest time step that attach() accepts [s]; infinity: any. */
+    virtual double largest_step(const RockModel &model) const;
+
     /** Prepares the boundary for a model. Call it once.
      * @param model rock model
      * @param centre source point of the scattered waves: base of the dam [m]

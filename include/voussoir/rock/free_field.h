@@ -33,11 +33,10 @@ namespace Voussoir
               const IncidentWave &wave, const Incidence &incidence = {});
     ~FreeField() override;
 
-    /** Adds a section. Points of lines take the motion of the section if their position agrees with a node of
-     * the section in both directions other than @p direction (0: x, 1: y). Call it before points are added.
-     */
-    void add_section(const RockModel &section, std::vector<std::unique_ptr<SectionMotion>> motions,
-                     unsigned int direction);
+    /** Adds a section normal to @p direction (0: x, 1: y). Points at which SectionNodes finds nodes take their
+     * motion; all points of a line, or none. Call it before points are added. @p rock: model of the rock. */
+    void add_section(const RockModel &section, const RockModel &rock,
+                     std::vector<std::unique_ptr<SectionMotion>> motions, unsigned int direction);
 
     /** Adds the first @p n nodes of every line as points, line after line. */
     void add_lines(const RockModel &model, unsigned int n);
@@ -78,9 +77,8 @@ namespace Voussoir
     struct Point
     {
       const Section        *section = nullptr;        ///< section that the point follows, or null
-      unsigned int          node = no_node;           ///< of the section
       unsigned int          column = no_node;         ///< column that the point follows, or no_node
-      std::array<int, 4>    level{};                  ///< of the column
+      std::array<int, 4>    level{};                  ///< of the column, or nodes of the section
       std::array<double, 4> weight{{1., 0., 0., 0.}}; ///< per level
       Vector3               place{};                  ///< [m]
     };

@@ -26,6 +26,8 @@ namespace Voussoir
      * unstable), or for a formula without a term against drift. */
     std::string warning(const RockRegionParameters &parameters) const override;
 
+    double largest_step(const RockModel &model) const override;
+
     /** Computes the weights of all lines. Throws InputError if a line has too few nodes, or if the fastest
      * artificial wave crosses more than one cell in a step: S = c dt / dx > 1. */
     void attach(const RockModel &model, const Vector3 &centre, double dt) override;
