@@ -10,6 +10,7 @@
 #include "../tests/quarter_box.h"
 
 #include <voussoir/base/error.h>
+#include <voussoir/dynamics/newmark.h>
 
 namespace
 {

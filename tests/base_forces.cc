@@ -4,6 +4,7 @@
 // Usage: base_forces rigid|rock|wall|equilibrium|wedge_files
 
 #include <voussoir/dam/base_force.h>
+#include <voussoir/dynamics/newmark.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/solid/solid_grid.h>

@@ -5,8 +5,8 @@
 #include "testing.h"
 
 #include <voussoir/joints/condensed_body.h>
-#include <voussoir/joints/packed_factor.h>
 #include <voussoir/joints/joint_block.h>
+#include <voussoir/joints/packed_factor.h>
 
 #include <random>
 

@@ -149,7 +149,7 @@ namespace
     unsigned int matched = 0;
     for (unsigned int i = 0; i < two.n_nodes(); ++i)
       for (unsigned int k = 0; k < one.n_nodes(); ++k)
-        if (two.equation[i] != rigid_ground && two.points[i].distance(one.points[k]) < 1e-6)
+        if (two.equation[i] != rigid_ground && distance_between(two.points[i], one.points[k]) < 1e-6)
         {
           ++matched;
           for (unsigned int c = 0; c < 3; ++c)

@@ -383,7 +383,8 @@ namespace
     HexMesh bare = wall();
     bare.faces.clear();
     const SolidModel model(bare, 1);
-    throws("a linear temperature without faces", [&] { places_in_thickness(model, "Loads/Temperature"); },
+    throws("a linear temperature without faces",
+           [&] { places_in_thickness(model, "Loads/Temperature", false); },
            {"Loads/Temperature", "\"upstream\"", "Mark it"});
   }
 

@@ -8,6 +8,7 @@
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_axes.h>
 #include <voussoir/mesh/mesh_groups.h>
+#include <voussoir/solid/solid_grid.h>
 
 #include <fstream>
 
@@ -221,8 +222,8 @@ namespace
     const auto expect_at = [&](const dealii::Point<3> &p, const double s, const std::string &what)
     {
       std::ostringstream text;
-      text << what << ": s = " << geometry.arc_length(p) << " m, not " << s << " m";
-      expect(std::abs(geometry.arc_length(p) - s) < 1e-9, text.str());
+      text << what << ": s = " << geometry.arc_length(to_vector(p)) << " m, not " << s << " m";
+      expect(std::abs(geometry.arc_length(to_vector(p)) - s) < 1e-9, text.str());
     };
     for (unsigned int j = 0; j < 8; ++j)
       for (const double t : {0., .25, .5, .9})
@@ -253,20 +254,20 @@ namespace
           if (q.distance(p) < nearest)
             nearest = q.distance(p), s = (8. * i / n - 4.) * side;
         }
-        expect(std::abs(geometry.arc_length(p) - s) < 2. * 8. * side / n,
-               "a point on the line of an end side: s = " + std::to_string(geometry.arc_length(p)) +
-                   " m, not " + std::to_string(s) + " m");
+        expect(std::abs(geometry.arc_length(to_vector(p)) - s) < 2. * 8. * side / n,
+               "a point on the line of an end side: s = " +
+                   std::to_string(geometry.arc_length(to_vector(p))) + " m, not " + std::to_string(s) + " m");
       }
   }
 
   void test_probes()
   {
     const SolidModel model(arch(8), 1);
-    const auto       node = probe_node(model, "crown", {-40.5, .1, 9.});
-    expect(model.points[node].distance(dealii::Point<3>(-40., 0., 10.)) < 1e-9, "the node of a probe");
+    const auto       node = probe_node(model, "crown", {{-40.5, .1, 9.}});
+    expect(distance_between(model.points[node], {{-40., 0., 10.}}) < 1e-9, "the node of a probe");
     expect_error(
         [&] {
-          probe_node(model, "far", {-40., 0., 200.});
+          probe_node(model, "far", {{-40., 0., 200.}});
         },
         {"Output/Probes", "\"far\"", "(-40, 0, 200) m", "190 m from the dam", "(-40, 0, 10) m"});
   }

@@ -2,6 +2,7 @@
 // Numbers that a run reports, of given forces, stresses and movements: against integrals by hand.
 
 #include <voussoir/dam/scene.h>
+#include <voussoir/dynamics/newmark.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/output/face_tension.h>

@@ -154,7 +154,7 @@ namespace Blocks
       const auto corner = [&](const double z)
       {
         for (unsigned int i = 0; i < model.n_nodes(); ++i)
-          if (model.points[i].distance({half_dam * cell, half_dam * cell, z}) < 1e-6)
+          if (distance_between(model.points[i], {{half_dam * cell, half_dam * cell, z}}) < 1e-6)
             return model.equation[i];
         throw std::runtime_error("the dam has no such corner");
       };

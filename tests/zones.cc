@@ -3,6 +3,8 @@
 
 #include "mesh_testing.h"
 
+#include <deal.II/base/exceptions.h>
+
 #include <voussoir/base/error.h>
 #include <voussoir/foundation/foundation_parameters.h>
 #include <voussoir/mesh/gmsh_io.h>
