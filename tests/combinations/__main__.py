@@ -108,7 +108,8 @@ def main():
     net, begin = Net(directory, options.seed), time.time()
     print(f"{len(net.choices.factors)} factors, {len(net.levels)} levels, {len(net.pairs)} pairs, seed {options.seed}", flush=True)
     accepted = net.read_page(PAGE, 10 if options.tenth else 1)
-    net.draw(7 if options.tenth else options.scenes, lambda net: options.list_refused and options.list_refused.write_text(page_of(net)))
+    net.draw(7 if options.tenth else options.scenes, lambda net: options.list_refused and options.list_refused.write_text(page_of(net)),
+             options.tenth)
     open_pairs, covered = net.open_pairs(), net.covered()
     refused = sum(len(levels) == 2 for levels in net.refused)
     print(f"{len(net.scenes)} scenes in {time.time() - begin:.0f} s: {len(covered)} pairs covered, {refused} refused, "

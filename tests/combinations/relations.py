@@ -448,6 +448,10 @@ def has_joints(s):
     return s["Mesh/GRID/Joints"] != "0" or s["base joint"] != "none" or s["lift joints"] != "none"
 
 
+def is_numbered(s):  # without contraction joints, joint 1 is a base joint
+    return s["joint 1"] == "as all" or s["Mesh/GRID/Joints"] != "0"
+
+
 def shakes(s):
     return s["Motion/Source"] != "none" and s["combination"] != "without earthquake"
 
@@ -458,12 +462,12 @@ RELATIONS = {
     report: lambda s: True, repeated: lambda s: True, threads: lambda s: True, ranks: lambda s: True, printed: lambda s: True,
     without_effect: lambda s: True, exported: has_mesh_file, shuffled: has_mesh_file, needs_rows: lambda s: True,
     resumed: shakes, at_rest: shakes,
-    mirrored: lambda s: has_mesh_file(s) and s["limits"] != "wedges",  # a wedge has one bank
+    mirrored: lambda s: has_mesh_file(s) and is_numbered(s) and s["limits"] != "wedges",  # a wedge has one bank
     # The box of rock with mass, the channel of the water, the planes of wedges and the stations have the directions x and y.
     rotated: lambda s: has_mesh_file(s) and s["Foundation/Model"] != "rock" and s["limits"] != "wedges" and s["Reservoir/Model"] not in (
         "acoustic", "incompressible") and s["Motion/Source"] == "file" and s["Motion/Match"] == "false" and s["Motion/Abutments"] == "none" and
     s["sequence"] == "none",
-    bonded: lambda s: has_mesh_file(s) and (s["base joint"] != "none" or s["lift joints"] != "none") and s["Joints/Initial gaps"] in ("none", "contraction"),
+    bonded: lambda s: has_mesh_file(s) and is_numbered(s) and (s["base joint"] != "none" or s["lift joints"] != "none") and s["Joints/Initial gaps"] in ("none", "contraction"),
     one_body: lambda s: has_mesh_file(s) and s["base joint"] == s["lift joints"] == "none" and s["joint 1"] == "as all" and s["Mesh/GRID/Joints"] != "0" and
     s["Joints/Initial gaps"] == "none" and s["Statics/Stages"] in ("none", "fill", "day"),
     increments: lambda s: s["Statics/Self-weight"] != "none" or s["water level"] in ("high", "half"),

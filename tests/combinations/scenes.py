@@ -241,8 +241,9 @@ class Net:
         active = [x for x in scene.items() if x[0] not in self.inactive(scene)]
         return sum(frozenset(pair) in wanted for pair in itertools.combinations(active, 2)), scene
 
-    def draw(self, n_scenes, written):
-        """Adds scenes until all pairs are covered. written(self) follows each scene."""
+    def draw(self, n_scenes, written, quick):
+        """Adds scenes until all pairs are covered. written(self) follows each scene. quick: takes the default of a named factor where a
+        scene is refused, without a search for the pair."""
         given_up = set()
         while len(self.scenes) < n_scenes:
             wanted = self.open_pairs() - given_up
@@ -255,6 +256,11 @@ class Net:
                 facts = self.validated(scene)
                 if not isinstance(facts, str):
                     break
+                if quick:  # the page has most refused pairs
+                    named = [name for name in self.mentioned(facts, scene) if scene[name] != self.choices.default[name]]
+                    name = self.random.choice(named or [n for n in scene if scene[n] != self.choices.default[n]])
+                    scene[name] = self.choices.default[name]
+                    continue
                 levels, message = self.blame(scene, facts)
                 self.refused[levels] = message
                 print("        refused:", *(f"{n}={level}" for n, level in sorted(levels)), "|", first_sentence(message), flush=True)
