@@ -122,6 +122,9 @@ class Case:
         return self.run(name, changes)
 
 
+NO_MOTION = {"Motion/Source": "none", "Motion/Abutments": "", "Motion/Sequence": "", "Dynamics/Error estimate": "false"}
+
+
 # Relations: functions of a case. Those of ALWAYS need the first run only.
 
 def energy(case):
@@ -328,7 +331,7 @@ def one_body(case):
 def increments(case):
     """Twice the load increments: nearly the same static state."""
     n = int(case.entries.get("Statics/Water increments", 1))
-    other = case.run("increments", {"Statics/Water increments": str(2 * n), "Motion/Source": "none"})
+    other = case.run("increments", {"Statics/Water increments": str(2 * n), **NO_MOTION})
     a, b = (summary(x)["static"]["crest_displacement"] for x in (case.first, other))
     change = math.dist(a, b) / max(math.hypot(*a), 1e-5)
     if not change <= .02:
@@ -385,7 +388,7 @@ def needs_rows(case):
 
 def base_force(case):
     """The force of the foundation is minus the sum of all loads, with own integrals."""
-    static = case.run("base-force", {"Output/Block forces": "true", "Motion/Source": "none"})
+    static = case.run("base-force", {"Output/Block forces": "true", **NO_MOTION})
     blocks, combination = summary(static)["blocks"], case.entries.get("Loads/Combinations", "")
     names, rows = table(f"{static}/blocks.csv")
     row = dict(zip(names, rows[0]))
@@ -467,7 +470,8 @@ RELATIONS = {
     rotated: lambda s: has_mesh_file(s) and s["Foundation/Model"] != "rock" and s["limits"] != "wedges" and s["Reservoir/Model"] not in (
         "acoustic", "incompressible") and s["Motion/Source"] == "file" and s["Motion/Match"] == "false" and s["Motion/Abutments"] == "none" and
     s["sequence"] == "none",
-    bonded: lambda s: has_mesh_file(s) and is_numbered(s) and (s["base joint"] != "none" or s["lift joints"] != "none") and s["Joints/Initial gaps"] in ("none", "contraction"),
+    bonded: lambda s: has_mesh_file(s) and is_numbered(s) and (s["base joint"] != "none" or s["lift joints"] != "none") and s[
+        "Joints/Initial gaps"] in ("none", "contraction"),
     one_body: lambda s: has_mesh_file(s) and s["base joint"] == s["lift joints"] == "none" and s["joint 1"] == "as all" and s["Mesh/GRID/Joints"] != "0" and
     s["Joints/Initial gaps"] == "none" and s["Statics/Stages"] in ("none", "fill", "day"),
     increments: lambda s: s["Statics/Self-weight"] != "none" or s["water level"] in ("high", "half"),
