@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The checks before a release, some hours: all tests, sanitizers, all mutants, the benchmarks that judge themselves, line coverage, and
+# The checks before a release, some hours: all tests, the combinations of choices, sanitizers, all mutants, the benchmarks that judge themselves, line coverage, and
 # the quick tests on Debian 13 (as root, with debootstrap).
 # Goes on after a check that fails; build/full.md has date, machine and a row for each check, to be put into doc/verification.md,
 # and build/logs what each printed. Exit status: 0 if all passed.
-# Usage: scripts/full.sh [CHECK...]     tests, sanitizers, mutants, benchmarks, coverage, systems; all without one
+# Usage: scripts/full.sh [CHECK...]     tests, combinations, sanitizers, mutants, benchmarks, coverage, systems; all without one
 # shellcheck disable=SC2317 # the checks are called by their names
 set -euo pipefail
 # shellcheck source=environment.sh
@@ -15,6 +15,12 @@ tests() { scripts/test.sh; }
 sanitizers() { scripts/sanitize.sh; }
 mutants() { scripts/mutants.sh --table build/mutants.md; }
 systems() { scripts/try_release.sh trixie; }
+
+combinations()
+{
+  scripts/build.sh
+  python3 tests/combinations build/voussoir --server build/tests/test_fuzz_server --output build/combinations
+}
 
 # Those whose exit status says whether the physics came out, on one thread. calculix.py and peers.py skip (77) without their data.
 benchmarks()
@@ -53,6 +59,7 @@ summary_of()
 {
   case $1 in
     tests | sanitizers | coverage) grep -E 'tests passed|^\| all \|' "$2" | tail -n 2 | sed 's/^| all | \(.*\) | \(.*\) | \(.*\) |$/\3 of \1 lines/' ;;
+    combinations) grep 'pairs covered' "$2" | tail -n 1 ;;
     mutants) tail -n 1 "$2" ;;
     systems) grep '^| trixie' "$2" | sed 's/^| //; s/ |$//; s/ | /, /g' ;;
     benchmarks) grep -E ': (skipped|failed)' "$2" || echo "all within their limits" ;;
@@ -61,7 +68,7 @@ summary_of()
 
 mkdir -p build/logs
 if (($# == 0)); then
-  set -- tests sanitizers mutants benchmarks coverage systems
+  set -- tests combinations sanitizers mutants benchmarks coverage systems
 fi
 failed=0
 {
@@ -71,7 +78,7 @@ failed=0
 for check in "$@"; do
   begin=$SECONDS result=passed
   echo "full: $check"
-  bash -c "$(declare -f tests sanitizers mutants benchmarks coverage systems); root=$(printf %q "$root"); set -euo pipefail; $check" \
+  bash -c "$(declare -f tests combinations sanitizers mutants benchmarks coverage systems); root=$(printf %q "$root"); set -euo pipefail; $check" \
     >"build/logs/full_$check.log" 2>&1 </dev/null || { result=failed; failed=1; tail -n 20 "build/logs/full_$check.log" >&2; }
   echo "| $check | $result | $(summary_of "$check" "build/logs/full_$check.log" || true) | $(((SECONDS - begin + 59) / 60)) |" >>build/full.md
 done
