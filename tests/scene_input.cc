@@ -417,7 +417,7 @@ namespace
     Scene   scene;
     scene.add_parameters(prm);
     const UsualRanges &usual = prm.usual_ranges();
-    expect(usual.size() == 72, std::to_string(usual.size()) + " usual ranges");
+    expect(usual.size() == 73, std::to_string(usual.size()) + " usual ranges");
     for (const char *name : {"Mesh/Arch210/Rock/Depth", "Concrete/Density", "Joints/Friction",
                              "Joints/Keys/Friction", "Loads/Silt/Density", "Limits/Slip"})
       expect(usual.count(name) == 1, std::string("the usual range of ") + name);
@@ -425,7 +425,7 @@ namespace
     expect(strength.low == 1e5 && strength.high == 6e6 && strength.or_zero, "the usual strength of a bond");
   }
 
-  /** The default combination contains all loads of the table. By default none of them acts. */
+  /** The default combination contains all loads of the table. By default only the staged weight acts. */
   void test_loads()
   {
     const LoadParameters loads;
@@ -435,7 +435,8 @@ namespace
     Scene scene;
     scene.reservoir.density = 0.;
     for (const LoadRow &load : load_table())
-      expect(!load.acts(scene), std::string("by default a dam without water has the load ") + load.name);
+      expect(load.acts(scene) == (load.is_staged != nullptr),
+             std::string("by default a dam without water has the load ") + load.name);
   }
 
   /** The laws read exactly the entries of their rows. */

@@ -194,7 +194,8 @@ namespace Voussoir
     {
       if (const auto gone = removed.find(joined(entry.path)); gone != removed.end())
       {
-        warnings.push_back({Warning::Kind::input, "entry \"" + gone->first + "\" " + gone->second, entry.place});
+        warnings.push_back({Warning::Kind::input,
+                            entry.place + ": entry \"" + gone->first + "\" " + gone->second, entry.place});
         continue;
       }
       const DeclaredEntry &declared = declaration(known, entry);
@@ -203,9 +204,9 @@ namespace Voussoir
       std::string &before = places[{declared.name(), entry.text}];
       if (!before.empty() && entry.text != Entry::no_number)
         warnings.push_back({Warning::Kind::input,
-                         declared.name() + " is in the file twice, " + before + " and " + entry.place +
-                             ": the last value is used, " + entry.value + ". Remove one of them.",
-                         entry.place});
+                            declared.name() + " is in the file twice, " + before + " and " + entry.place +
+                                ": the last value is used, " + entry.value + ". Remove one of them.",
+                            entry.place});
       before = entry.place;
     }
     scene.check();

@@ -24,7 +24,7 @@
 #include <set>
 #include <sstream>
 
-    namespace Voussoir
+namespace Voussoir
 {
   namespace
   {
@@ -491,7 +491,7 @@
   }
 
   /** Removes the pairs at the base, which the foundation couples. */
-  void Dam::remove_base_pairs(std::vector<Pair> & pairs) const
+  void Dam::remove_base_pairs(std::vector<Pair> &pairs) const
   {
     const std::set<unsigned int> base = nodes_of_base();
     pairs.erase(std::remove_if(pairs.begin(), pairs.end(),
