@@ -14,6 +14,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections import Counter
 from pathlib import Path
 
 VOUSSOIR = str(Path(sys.argv[1]).resolve()) if len(sys.argv) > 1 else ""
@@ -251,6 +252,22 @@ def arch_mesh():
     return read_mesh("arch.msh")
 
 
+def without_rock(name, *settings):
+    """Writes the dam of scene.prm on rock as a mesh without the rock: the walls at its ends are free, and what touches the rock is the base."""
+    runs("mesh", "scene.prm", "--output", name, "--format", "2.2", *settings)
+    mesh = read_mesh(name)
+    rock = {n for kind, tag, nodes in mesh["elements"] if kind == 5 and tag >= 1000 for n in nodes}
+    dam = [element for element in mesh["elements"] if element[0] == 5 and element[1] < 1000]
+    faces = [tuple(nodes[k] for k in face) for _, _, nodes in dam for face in FACES]
+    times = Counter(frozenset(face) for face in faces)
+    elements = [element for element in mesh["elements"] if element[0] == 3 and element[1] in (2, 3, 4)]
+    elements += [(3, 1, face) for face in faces if rock.issuperset(face) and times[frozenset(face)] == 1] + dam
+    used = sorted({n for _, _, nodes in elements for n in nodes})
+    number = {n: i for i, n in enumerate(used)}
+    write_mesh(name, {"head": ["$MeshFormat", "2.2 0 8", "$EndMeshFormat"], "nodes": [mesh["nodes"][n] for n in used],
+                      "elements": [(kind, tag, [number[n] for n in nodes]) for kind, tag, nodes in elements]})
+
+
 def from_file(name):
     return ["--set", "Mesh/Source=file", "--set", f"Mesh/File={name}"]
 
@@ -371,7 +388,7 @@ def meshes():
 
     with_rock = ["--set", "Mesh/Arch210/Rock/Enabled=true"]
     runs("mesh", "scene.prm", "--output", "with_rock.msh", *with_rock)
-    refused(["scene.prm", "--validate", *from_file("with_rock.msh")], "rock", "Foundation/Model")
+    refused(["scene.prm", "--validate", *from_file("dam.msh")], "rock", "Foundation/Model")
     runs("mesh", "scene.prm", "--output", "without_rock.msh")
     refused(["scene.prm", "--validate", *from_file("without_rock.msh"), "--set", "Foundation/Model=rock"], "has no rock", "rigid")
     implied = runs("scene.prm", "--validate", "--set", "Foundation/Model=massless", "--set", "Mesh/Arch210/Rock/Element size=60")
@@ -555,12 +572,12 @@ def factors():
         expect(1e-13 < two["energy_balance_error"] < 2e-9, f"{law}: energy balance {two['energy_balance_error']:.1e}")
         expect(two["contact_path"] == one["contact_path"], f"{law}: {two['contact_path']}")
     # A step that is halved: the last increment then belongs to another time step.
-    cohesive = [x for entry in ("Joints/Model=cohesive", "Joints/Strength=1 MPa", "Joints/Fracture energy=20", "Contact/Maximum iterations=4",
-                                "Mesh/Arch210/Elements up=6") for x in ("--set", entry)]
+    rigid_keys = [x for entry in ("Joints/Model=KSM", "Joints/Keys/Seat compliance=0", "Contact/Maximum iterations=4",
+                                  "Mesh/Arch210/Elements up=6", "Motion/Duration=0.2") for x in ("--set", entry)]
     for kind in ("double", "single"):
-        runs("scene.prm", "--output", f"halved_{kind}", *cohesive, "--set", f"Dynamics/Factors={kind}")
+        runs("scene.prm", "--output", f"halved_{kind}", *rigid_keys, "--set", f"Dynamics/Factors={kind}")
         expect(summary(f"halved_{kind}")["contact_path"]["smaller_step"] > 0, "no step was halved")
-    same("halved_double", "halved_single", 2e-6)
+    same("halved_double", "halved_single", 2e-6, ("history",))  # no joint opens in this time
     expect(summary("halved_single")["energy_balance_error"] < 1e-8, "energy of halved steps")
     # Gaps of displacements have errors of 1e-9 m, which change the states of key flanks: Newton's method then takes twice the steps.
     write("keys.prm", "")
@@ -657,7 +674,8 @@ def stiff_rock():
     settings = ["--set", "Joints/Model=tied", "--set", "Mesh/Arch210/Rock/Enabled=true", "--set", "Motion/Duration=0.3",
                 "--set", "Mesh/Arch210/Rock/Element size=60", "--set", "Output/Envelope interval=0"]
     rock = ["--set", "Foundation/Young's modulus=1.5e14", "--set", "Foundation/Stiffness damping=0"]
-    runs("scene.prm", "--output", "rigid", *settings, "--set", "Dynamics/Steps per sample=10")
+    without_rock("dam.msh", *settings)
+    runs("scene.prm", "--output", "rigid", *settings, *from_file("dam.msh"), "--set", "Dynamics/Steps per sample=10")
     runs("scene.prm", "--output", "stiff", *settings, *rock, "--set", "Foundation/Model=rock",
          "--set", "Dynamics/Steps per sample=250")
     runs("scene.prm", "--output", "massless", *settings, *rock, "--set", "Foundation/Model=massless",
@@ -696,13 +714,14 @@ def foundations():
         expect(result.returncode == 0, f"modes: {result.stderr}")
         return frequencies(result.stdout)[0]
 
-    rigid, massless = first_mode(), first_mode("--set", "Foundation/Model=massless")
+    without_rock("dam.msh", *rock)
+    rigid, massless = first_mode(*from_file("dam.msh")), first_mode("--set", "Foundation/Model=massless")
     stiff = first_mode("--set", "Foundation/Model=massless", "--set", "Foundation/Young's modulus=1.5e16")
     print(f"    first mode: rigid {rigid} Hz, massless rock {massless} Hz, massless and stiff {stiff} Hz")
     expect(.8 < massless / rigid < .95 and abs(stiff / rigid - 1) < 1e-5, "frequencies on massless rock")
     # Joints on stiff massless rock open and slide as on a rigid base.
     short = [*rock, "--set", "Motion/Duration=1", "--set", "Contact/Tolerance=1e-13"]
-    runs("scene.prm", "--output", "rigid", *short)
+    runs("scene.prm", "--output", "rigid", *short, *from_file("dam.msh"))
     runs("scene.prm", "--output", "massless", *short, "--set", "Foundation/Model=massless", "--set",
          "Foundation/Young's modulus=1.5e16")
     same("rigid", "massless", 1e-3, ("joint_history",))
@@ -734,7 +753,7 @@ def foundations():
     for name, x in amplitude.items():
         expect(abs(x / amplitude["fine"] - 1) < (.5 if name == "fixed" else .1), f"amplitude with {name}: {amplitude}")
     refused(["scene.prm", "--output", "none", *shaking, "--set", "Foundation/Substeps=1"], "critical", "Foundation/Substeps")
-    refused(["scene.prm", "--output", "none", *shaking, "--set", "Dynamics/Impact=none"], "critical", "Foundation/Substeps")
+    refused(["scene.prm", "--output", "none", *shaking, "--set", "Dynamics/Impact=none"], "critical", "Steps per sample")
     # Without the entry, the rock has as many steps as its critical time step requires.
     runs("scene.prm", "--output", "automatic", *shaking)
     steps = int(re.search(r"(\d+) rock steps in each step of the dam", Path("automatic/log.txt").read_text())[1])

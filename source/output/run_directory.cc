@@ -198,13 +198,18 @@ namespace Voussoir
 
   void RunDirectory::expect_tables()
   {
+    std::error_code error;
+    if (!fs::is_directory(path, error))
+      throw WriteError(
+          "The output directory " + path +
+          "/ was removed, or the directory renamed, while the program was running: it no longer exists. "
+          "Please start the run again, or choose another directory with --output.");
     if (tables.empty())
       for (const fs::path &entry : entries_of(path))
         if (const fs::path ending = entry.extension();
             is_result(entry) && entry.parent_path().empty() &&
             (ending == ".csv" || ending == ".prm" || ending == ".txt"))
           tables.push_back(entry);
-    std::error_code error;
     for (const fs::path &table : tables)
       if (!fs::exists(path / table, error))
         throw WriteError("The file " + (fs::path(path) / table).string() +
