@@ -18,6 +18,7 @@ form() # format of the sources, checks of scripts and prose, mutants that fit
     echo "test: this is not clang-format 14: the form of the sources was not checked" >&2
   fi
   scripts/check_rooms.sh
+  scripts/check_tree.py
   shellcheck scripts/*.sh .ci/run
   flake8 python scripts benchmarks meshes
   scripts/mutants.py --check
