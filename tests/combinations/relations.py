@@ -122,7 +122,7 @@ class Case:
         return self.run(name, changes)
 
 
-NO_MOTION = {"Motion/Source": "none", "Motion/Abutments": "", "Motion/Sequence": "", "Dynamics/Error estimate": "false"}
+NO_MOTION = {"Motion/Source": "none", "Motion/Abutments": "", "Motion/Sequence": ""}
 
 
 # Relations: functions of a case. Those of ALWAYS need the first run only.
