@@ -275,7 +275,8 @@ def writing():
 def lost(output, remove, *parts):
     """The run must fail after remove(), which takes a file or the directory away from it."""
     process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", output, *LONG], text=True, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    while process.poll() is None and not Path(output, "history.csv").exists():
+    history = Path(output, "history.csv")
+    while process.poll() is None and not (history.exists() and history.read_text().count("\n") > 3):  # inside the time loop
         time.sleep(.002)
     process.send_signal(signal.SIGSTOP)
     remove()
