@@ -24,17 +24,11 @@ namespace Voussoir
     constexpr double stiffest =
         4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
 
-    /** Returns true if dam and rock are solved in turn, with base joints between them. */
-    bool alternates_with_rock(const Dam &dam)
-    {
-      return dam.has_base_joints() && dam.scene.foundation.model == "rock";
-    }
-
     /** Returns the parameters of the contact solver in the static state. The forces of base joints determine the
      * displacements of rock with mass, and their errors those of the iterations between dam and rock. */
     ContactParameters in_statics(const Dam &dam, ContactParameters parameters)
     {
-      if (alternates_with_rock(dam))
+      if (dam.has_base_joints() && dam.scene.foundation.model == "rock")
         parameters.tolerance *= .01;
       return parameters;
     }
@@ -113,8 +107,7 @@ namespace Voussoir
     public:
       StaticHistory(Dam &dam, const ContactParameters &parameters, Log &log,
                     const std::function<void()> &stop_if_asked)
-          : dam(dam), alternates(alternates_with_rock(dam)), parameters(in_statics(dam, parameters)),
-            log(log), stop_if_asked(stop_if_asked),
+          : dam(dam), parameters(in_statics(dam, parameters)), log(log), stop_if_asked(stop_if_asked),
             sustained(dam.has_sustained_moduli() ? dam.sustained_structure() : Structure()),
             structure(dam.has_sustained_moduli() ? sustained : dam.structure),
             springs(dam.foundation->static_springs(structure)), base(dam.foundation->static_base(structure)),
@@ -302,33 +295,16 @@ namespace Voussoir
                                                operation, springs, base.get());
       }
 
-      /** Returns the change of the load since the last call, relative to the load, if dam and rock are solved in turn;
-       * otherwise 0 [-]. */
-      double change_of_load(const Unknowns &load)
-      {
-        if (!alternates)
-          return 0.;
-        Unknowns change = load;
-        for (std::size_t k = 0; k < last_load.size(); ++k)
-          change[k] -= last_load[k];
-        last_load = load;
-        return norm_1(change) / std::max(norm_1(load), 1e-300);
-      }
-
       /** Solves with the load f, and with base joints by iterations: (K + eps M) u = f + eps M u_k, where u_k is the
        * displacement of the previous iteration. They end when the force eps M (u - u_k) is negligible, or no longer
-       * falls. If it falls slowly, eps is reduced. While the rock still changes f, a force that is small relative to
-       * this change is negligible, and the tolerance of the joints follows the change. */
+       * falls. If it falls slowly, eps is reduced. */
       ContactResult iterate(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
                             const Unknowns &committed)
       {
         constexpr unsigned int most = 100;                         // rounds
         constexpr double       negligible = 1e-11, allowed = 1e-7; // of the sum of all nodal loads
-        const double           change = change_of_load(load), sufficient = std::max(negligible, .1 * change);
         ContactResult          total;
         double                 before = INFINITY;
-        if (alternates)
-          system->set_tolerance(std::max(parameters.tolerance, std::min(1e-6, 1e-3 * change)));
         for (unsigned int k = 0;; ++k)
         {
           stop_if_asked();
@@ -349,7 +325,7 @@ namespace Voussoir
             moved[k] -= last[k];
           add_proximal(moved, held);
           const double sum = norm_1(held), of_load = norm_1(load);
-          if (sum <= sufficient * of_load || (sum > .5 * before && sum <= allowed * of_load))
+          if (sum <= negligible * of_load || (sum > .5 * before && sum <= allowed * of_load))
             return total;
           const bool is_slow = sum > .5 * before && k > 2;
           if (is_slow && proximal > 1.5 * least_proximal)
@@ -536,7 +512,6 @@ namespace Voussoir
       }
 
       const Dam                   &dam;
-      const bool                   alternates; ///< see alternates_with_rock()
       const ContactParameters      parameters;
       Log                         &log;
       const std::function<void()> &stop_if_asked;
@@ -555,7 +530,6 @@ namespace Voussoir
       std::unique_ptr<JointWater>  water;
       std::unique_ptr<JointSystem> system;
       std::size_t                  stage = 0; ///< present one
-      Unknowns                     last_load; ///< of iterate() [N]
       std::string                  failure;   ///< of the last step; empty: none
       Unknowns                     gap;       ///< of the pairs, 3 each [m]
       StaticState                  state;

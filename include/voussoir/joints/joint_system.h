@@ -83,9 +83,6 @@ namespace Voussoir
       return solve(load, offset, start, memory, force, gap, u);
     }
 
-    /** Changes ContactParameters::tolerance for the next solutions. */
-    void set_tolerance(const double tolerance) { solver->set_tolerance(tolerance); }
-
     /** Updates the history variables after a step is accepted.
      * @param start gap at the start of the step, three values per pair [m]
      * @param force joint forces of the solution, three values per pair [N]
