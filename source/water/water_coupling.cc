@@ -31,7 +31,7 @@ namespace Voussoir
     class NodeFinder
     {
     public:
-      NodeFinder(const WaterMesh &mesh, const double h) : of_file(mesh.of_file)
+      NodeFinder(const WaterMesh &mesh, const double h) : of_file(mesh.of_file), slack(1e-5 * h)
       {
         std::map<int, std::vector<Vector3>> points;
         for (unsigned int i = 0; i < mesh.n_wet(); ++i)
@@ -43,21 +43,25 @@ namespace Voussoir
           finders.try_emplace(monolith, its_points, 4. * h);
       }
 
-      /** Returns the nearest node of the monolith within four element sizes, or rigid_ground. Of two nodes at the same
-       * distance it is the lower one. */
-      unsigned int find(Vector3 p, const int monolith) const
+      /** Returns the nearest node of the monolith within four element sizes, several ones at the same distance, or
+       * none. */
+      std::vector<unsigned int> find(const Vector3 &p, const int monolith) const
       {
-        p[1] -= 1e-6, p[2] -= 1e-6;
-        const auto         finder = finders.find(monolith);
-        const unsigned int found = finder == finders.end() ? PointFinder::none : finder->second.find(seen(p));
-        return found == PointFinder::none ? rigid_ground : nodes.at(monolith)[found];
+        const auto finder = finders.find(monolith);
+        if (finder == finders.end() || finder->second.find(seen(p)) == PointFinder::none)
+          return {};
+        std::vector<unsigned int> found = finder->second.all_nearest(seen(p), slack);
+        for (unsigned int &node : found)
+          node = nodes.at(monolith)[node];
+        return found;
       }
 
     private:
       /** Returns the point as seen along the river, in a channel. Faces in a mesh file can be parallel to the river. */
       Vector3 seen(const Vector3 &p) const { return {{of_file ? p[0] : 0., p[1], p[2]}}; }
 
-      const bool                               of_file;
+      const bool   of_file;
+      const double slack; ///< of distances that are equal except for round-off [m]
       std::map<int, std::vector<unsigned int>> nodes; ///< by monolith
       std::map<int, PointFinder>               finders;
     };
@@ -106,17 +110,19 @@ namespace Voussoir
             continue;
           const Vector3 part =
               quads[f].is_clockwise ? cross(along, up) : cross(up, along); // out of the water
-          const unsigned int water = finder.find(p, wet[f].monolith);
-          if (water == rigid_ground)
-            throw InputError("Mesh of the water: " + physical_name(3, wet[f].monolith) +
-                             " has no water node near y = " + number_text(p[1]) +
-                             " m, z = " + number_text(p[2]) +
-                             " m. Reduce Reservoir/Element size, for example to " + number_text(.7 * h) +
-                             " m. Water volumes of a mesh file must touch every monolith.");
-          add(area[water], part);
-          for (unsigned int k = 0; k < 4; ++k)
+          const std::vector<unsigned int> found = finder.find(p, wet[f].monolith);
+          if (found.empty())
+            throw CoarseWater(
+                "Mesh of the water: " + physical_name(3, wet[f].monolith) +
+                " has no water node near y = " + number_text(p[1]) + " m, z = " + number_text(p[2]) + " m." +
+                (mesh.of_file ? " Water volumes of a mesh file must touch every monolith." : ""));
+          for (const unsigned int water : found)
             for (unsigned int d = 0; d < 3; ++d)
-              areas[{water, quads[f].nodes[k]}][d] += N[k] * part[d];
+            {
+              area[water][d] += part[d] / found.size();
+              for (unsigned int k = 0; k < 4; ++k)
+                areas[{water, quads[f].nodes[k]}][d] += N[k] * part[d] / found.size();
+            }
         }
     }
     for (const auto &[nodes, unused] : areas)
@@ -124,7 +130,7 @@ namespace Voussoir
         dam_nodes.push_back(dam.equation[nodes.second]);
     std::sort(dam_nodes.begin(), dam_nodes.end());
     dam_nodes.erase(std::unique(dam_nodes.begin(), dam_nodes.end()), dam_nodes.end());
-    nearest.assign(dam.n_nodes(), rigid_ground);
+    nearest.assign(dam.n_nodes(), {});
     for (const auto &[nodes, vector] : areas)
     {
       const auto [water, node] = nodes;

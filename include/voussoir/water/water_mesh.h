@@ -6,6 +6,7 @@
 #include <voussoir/water/water_section.h>
 
 #include <cmath>
+#include <functional>
 
 namespace Voussoir
 {
@@ -30,7 +31,7 @@ namespace Voussoir
     bool                      of_file = false; ///< true: volumes of a mesh file, false: channel
     std::vector<Vector3>      points;          ///< nodes [m]; those at the dam come first
     std::vector<Cell>         cells;
-    std::vector<Face>         bed, end;
+    std::vector<Face>         wet, bed, end; ///< at the dam; at bed and banks; at the end
     Vector3                   wet_area{}; ///< of a mesh file: area at the dam, normal out of the water [m^2]
     std::vector<bool>         at_surface; ///< per node
     std::vector<int>          monolith;   ///< per node at the dam
@@ -41,6 +42,13 @@ namespace Voussoir
     std::vector<unsigned int> far; ///< per node: the nearest one of the end, as number in far_channel()
 
     unsigned int n_wet() const { return static_cast<unsigned int>(monolith.size()); } ///< nodes at the dam
+
+    /** Divides the nodes at joints of the dam, so that each monolith has its own one, and sets #monolith. The elements
+     * at the dam are then separate at the joint.
+     * @param monoliths per node at the dam: ascending, several at a joint
+     * @param of_cell returns the monolith in front of the centre of a cell */
+    void separate(const std::vector<std::vector<int>>    &monoliths,
+                  const std::function<int(unsigned int)> &of_cell);
 
     /** Numbers #column and #far, and sets #places. */
     void link();
