@@ -361,8 +361,8 @@ namespace
     const auto      read = [&](const HexMesh &file) { read_volumes(file, faces, height, water); };
     read(whole);
     HexMesh low = whole;
-    for (Vector3 &x : low.nodes)
-      if (x[2] > height - 1e-6 && x[0] < -1.)
+    for (Vector3 &x : low.nodes) // the surface near the dam remains at the level
+      if (x[2] > height - 1e-6 && x[0] < -25.)
         x[2] -= .02;
     throws<InputError>("surface 2 cm below the level", [&] { read(low); }, {"rigid cover", "0.02 m below"});
     HexMesh apart = whole; // each cell beyond x = -25 m has its own nodes

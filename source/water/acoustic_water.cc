@@ -211,7 +211,7 @@ namespace Voussoir
                      " s is above the critical time step of the water, " + number_text(model->critical_step) +
                      " s. It would need " + number_text(std::round(100. * factor) / 100.) +
                      " times the mass of the water (limit 1.3). Set \"Dynamics/Steps per sample\" to " +
-                     std::to_string(more * steps_per_sample) + "" + larger_elements() + ".");
+                     std::to_string(more * steps_per_sample) + larger_elements() + ".");
   }
 
   void AcousticWater::report(Log &log, const std::vector<double> &depths) const
@@ -239,12 +239,6 @@ namespace Voussoir
       log.line(
           "          bed and banks move with the free field of the rock; the water does not act on the rock "
           "upstream of the dam");
-    if (properties.reflection == 1.)
-      log.line(
-          "warning: with Reservoir/Reflection = 1 the end of the channel reflects waves near the first frequency of "
-          "the channel, %.3g Hz. The force on the dam then has an error of up to 24 %% (doc/water.md). Set the "
-          "coefficient to 0.9 or less.",
-          properties.sound_speed / (4. * properties.depth));
     if (model->mass_factor > noticeable_mass_factor)
       log.line(
           "warning: the mass of the water is increased by %.1f %% for the time step of %g s. Frequencies change "
