@@ -48,7 +48,7 @@ namespace Voussoir
       const WaterModel water = dam.water->model_for(0.);
       std::cerr << "voussoir: warning: effective masses are those of the concrete, without the water.\n";
       const bool is_compressible = dam.scene.reservoir.is_acoustic();
-      auto       modes = natural_modes(dam.structure, is_compressible ? count + 8 : count, 1000,
+      auto       modes = natural_modes(dam.structure, is_compressible ? count + 4 : count, 1000,
                                        [&](const Unknowns &x, Unknowns &y)
                                        { dam.water->add_incompressible_mass(water, x, y); });
       if (is_compressible)

@@ -181,6 +181,7 @@ namespace Voussoir
     if (water_mesh.of_file)
       return ", or use larger elements in the volumes \"water\" of the mesh file";
     WaterProperties larger = properties;
+    larger.h *= std::max(1., .8 * std::sqrt(model->mass_factor / largest_mass_factor)); // near the right size
     for (larger.h *= 1.1; larger.h < .5 * properties.depth; larger.h *= 1.1)
       try
       {
@@ -518,8 +519,8 @@ namespace Voussoir
   {
     std::vector<double> result(dam.n_nodes(), 0.);
     for (unsigned int i = 0; i < dam.n_nodes() && !values.empty(); ++i)
-      for (const unsigned int water : coupling.nearest[i])
-        result[i] += values[water] / coupling.nearest[i].size();
+      if (const unsigned int water = coupling.nearest[i]; water != rigid_ground)
+        result[i] = values[water];
     return result;
   }
 

@@ -31,7 +31,7 @@ namespace Voussoir
     class NodeFinder
     {
     public:
-      NodeFinder(const WaterMesh &mesh, const double h) : of_file(mesh.of_file), slack(1e-5 * h)
+      NodeFinder(const WaterMesh &mesh, const double h) : of_file(mesh.of_file)
       {
         std::map<int, std::vector<Vector3>> points;
         for (unsigned int i = 0; i < mesh.n_wet(); ++i)
@@ -43,25 +43,21 @@ namespace Voussoir
           finders.try_emplace(monolith, its_points, 4. * h);
       }
 
-      /** Returns the nearest node of the monolith within four element sizes, several ones at the same distance, or
-       * none. */
-      std::vector<unsigned int> find(const Vector3 &p, const int monolith) const
+      /** Returns the nearest node of the monolith within four element sizes, or rigid_ground. Of two nodes at the same
+       * distance it is the lower one. */
+      unsigned int find(Vector3 p, const int monolith) const
       {
-        const auto finder = finders.find(monolith);
-        if (finder == finders.end() || finder->second.find(seen(p)) == PointFinder::none)
-          return {};
-        std::vector<unsigned int> found = finder->second.all_nearest(seen(p), slack);
-        for (unsigned int &node : found)
-          node = nodes.at(monolith)[node];
-        return found;
+        p[1] -= 1e-6, p[2] -= 1e-6;
+        const auto         finder = finders.find(monolith);
+        const unsigned int found = finder == finders.end() ? PointFinder::none : finder->second.find(seen(p));
+        return found == PointFinder::none ? rigid_ground : nodes.at(monolith)[found];
       }
 
     private:
       /** Returns the point as seen along the river, in a channel. Faces in a mesh file can be parallel to the river. */
       Vector3 seen(const Vector3 &p) const { return {{of_file ? p[0] : 0., p[1], p[2]}}; }
 
-      const bool   of_file;
-      const double slack; ///< of distances that are equal except for round-off [m]
+      const bool                               of_file;
       std::map<int, std::vector<unsigned int>> nodes; ///< by monolith
       std::map<int, PointFinder>               finders;
     };
@@ -110,19 +106,16 @@ namespace Voussoir
             continue;
           const Vector3 part =
               quads[f].is_clockwise ? cross(along, up) : cross(up, along); // out of the water
-          const std::vector<unsigned int> found = finder.find(p, wet[f].monolith);
-          if (found.empty())
+          const unsigned int water = finder.find(p, wet[f].monolith);
+          if (water == rigid_ground)
             throw CoarseWater(
                 "Mesh of the water: " + physical_name(3, wet[f].monolith) +
                 " has no water node near y = " + number_text(p[1]) + " m, z = " + number_text(p[2]) + " m." +
                 (mesh.of_file ? " Water volumes of a mesh file must touch every monolith." : ""));
-          for (const unsigned int water : found)
+          add(area[water], part);
+          for (unsigned int k = 0; k < 4; ++k)
             for (unsigned int d = 0; d < 3; ++d)
-            {
-              area[water][d] += part[d] / found.size();
-              for (unsigned int k = 0; k < 4; ++k)
-                areas[{water, quads[f].nodes[k]}][d] += N[k] * part[d] / found.size();
-            }
+              areas[{water, quads[f].nodes[k]}][d] += N[k] * part[d];
         }
     }
     for (const auto &[nodes, unused] : areas)
@@ -130,7 +123,7 @@ namespace Voussoir
         dam_nodes.push_back(dam.equation[nodes.second]);
     std::sort(dam_nodes.begin(), dam_nodes.end());
     dam_nodes.erase(std::unique(dam_nodes.begin(), dam_nodes.end()), dam_nodes.end());
-    nearest.assign(dam.n_nodes(), {});
+    nearest.assign(dam.n_nodes(), rigid_ground);
     for (const auto &[nodes, vector] : areas)
     {
       const auto [water, node] = nodes;

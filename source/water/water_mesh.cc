@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 
 namespace Voussoir
 {
@@ -62,102 +61,6 @@ namespace Voussoir
       for_points(corners(points, face), [&](const Vector3 &area, const auto &) { add(normal, area); });
     const double size = norm(normal);
     return {{normal[0] / size, normal[1] / size, normal[2] / size}};
-  }
-
-  namespace
-  {
-    /** Monoliths of the cells at divided nodes. */
-    struct Sides
-    {
-      Sides(const WaterMesh &mesh, const std::vector<std::vector<int>> &monoliths,
-            const std::function<int(unsigned int)> &of_cell)
-          : monoliths(monoliths), used(monoliths.size())
-      {
-        for (unsigned int c = 0; c < mesh.cells.size(); ++c)
-          for (const unsigned int node : mesh.cells[c])
-            if (node < monoliths.size() && monoliths[node].size() > 1)
-            {
-              const auto [cell, is_new] = of.emplace(c, 0);
-              if (is_new)
-                cell->second = of_cell(c);
-              used[node].insert(choose(node, cell->second));
-            }
-      }
-
-      /** Returns the monolith of a node that is nearest to the given one. */
-      int choose(const unsigned int node, const int monolith) const
-      {
-        return *std::min_element(monoliths[node].begin(), monoliths[node].end(),
-                                 [&](const int a, const int b)
-                                 { return std::abs(a - monolith) < std::abs(b - monolith); });
-      }
-
-      bool divides(const unsigned int node) const { return node < used.size() && used[node].size() > 1; }
-
-      /** Returns the monolith of the cell with the face; 0: none of its nodes is divided. */
-      int of_face(const WaterMesh &mesh, const WaterMesh::Face &face) const
-      {
-        if (std::none_of(face.begin(), face.end(), [&](const unsigned int node) { return divides(node); }))
-          return 0;
-        const auto holds = [&](const auto &cell)
-        {
-          const WaterMesh::Cell &nodes = mesh.cells[cell.first];
-          return std::all_of(face.begin(), face.end(),
-                             [&](const unsigned int node)
-                             { return std::find(nodes.begin(), nodes.end(), node) != nodes.end(); });
-        };
-        return std::find_if(of.begin(), of.end(), holds)->second;
-      }
-
-      const std::vector<std::vector<int>> &monoliths;
-      std::vector<std::set<int>>           used; ///< per node at the dam: monoliths that have cells at it
-      std::map<unsigned int, int>          of;   ///< monolith, by cell
-    };
-  } // namespace
-
-  void WaterMesh::separate(const std::vector<std::vector<int>>    &monoliths,
-                           const std::function<int(unsigned int)> &of_cell)
-  {
-    const Sides               sides(*this, monoliths, of_cell);
-    std::vector<unsigned int> first(points.size()), from; // numbers before and after
-    for (unsigned int i = 0; i < points.size(); ++i)
-    {
-      first[i] = from.size();
-      from.resize(from.size() + (sides.divides(i) ? sides.used[i].size() : 1), i);
-      if (i >= monoliths.size())
-        continue;
-      if (sides.used[i].empty())
-        monolith.push_back(monoliths[i].front());
-      monolith.insert(monolith.end(), sides.used[i].begin(), sides.used[i].end());
-    }
-    const auto renumber = [&](auto &nodes, const int at)
-    {
-      for (unsigned int &node : nodes)
-      {
-        const unsigned int old = node;
-        node = first[old];
-        if (sides.divides(old))
-          node += std::distance(sides.used[old].begin(), sides.used[old].find(sides.choose(old, at)));
-      }
-    };
-    for (std::vector<Face> *faces : {&wet, &bed, &end})
-      for (Face &face : *faces)
-        renumber(face, sides.of_face(*this, face));
-    for (unsigned int c = 0; c < cells.size(); ++c)
-    {
-      const auto cell = sides.of.find(c);
-      renumber(cells[c], cell == sides.of.end() ? 0 : cell->second);
-    }
-    const auto spread = [&](auto &values)
-    {
-      const auto before = std::move(values);
-      values.clear();
-      for (const unsigned int old : from)
-        values.push_back(before[old]);
-    };
-    spread(points);
-    spread(at_surface);
-    spread(layer);
   }
 
   void WaterMesh::link()
@@ -229,8 +132,9 @@ namespace Voussoir
     double                    length;
     WaterMesh                 mesh;
     const std::vector<double> layers = layers_of(properties, undamped, length, mesh.last_length);
-    const double              end = *std::min_element(section.face_x.begin(), section.face_x.end()) - length;
-    const auto                node = [&](const std::size_t k, const unsigned int j)
+    mesh.monolith = section.monolith;
+    const double end = *std::min_element(section.face_x.begin(), section.face_x.end()) - length;
+    const auto   node = [&](const std::size_t k, const unsigned int j)
     { return static_cast<unsigned int>(k * n + j); };
     for (std::size_t k = 0; k < layers.size(); ++k)
     {
@@ -256,7 +160,6 @@ namespace Voussoir
     for (const auto &[a, b, c, d] : section.cells)
       mesh.end.push_back({node(layers.size() - 1, d), node(layers.size() - 1, c), node(layers.size() - 1, b),
                           node(layers.size() - 1, a)});
-    mesh.separate(section.monoliths, [&](const unsigned int cell) { return section.of_cell.at(cell); });
     mesh.link();
     return mesh;
   }

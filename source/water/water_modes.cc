@@ -195,7 +195,7 @@ namespace Voussoir
     rest -= reduced.mass(0.);
     std::vector<Complex>                        found;
     std::vector<std::pair<double, NaturalMode>> result; // with the damping
-    for (std::size_t k = 0; k < m; ++k)                 // a later mode can end at a lower frequency
+    for (unsigned int k = 0; k < count; ++k)
     {
       const Complex s = frequency_of(reduced, Lambda, rest, k);
       const bool    is_new = std::abs(s) > 0. && std::none_of(found.begin(), found.end(),
@@ -210,11 +210,6 @@ namespace Voussoir
     }
     std::stable_sort(result.begin(), result.end(),
                      [](const auto &a, const auto &b) { return a.second.frequency < b.second.frequency; });
-    if (found.size() >= count)
-      result.erase(std::remove_if(result.begin(), result.end(),
-                                  [](const auto &mode) { return std::isnan(mode.first); }),
-                   result.end());
-    result.resize(std::min<std::size_t>(count, result.size()));
     modes.clear();
     std::vector<double> damping;
     for (auto &[of_mode, mode] : result)

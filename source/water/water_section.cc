@@ -213,9 +213,8 @@ namespace Voussoir
           const double  along = (b[0] - a[0]) * (c[0] - b[0]) + (b[1] - a[1]) * (c[1] - b[1]);
           if (std::abs(std::atan2(cross(a, b, c), along)) < 25. * M_PI / 180.)
             continue;
-          const double      at = at_point[p] / length() * n;
-          const std::size_t k = std::lround(at);
-          if (k <= last || k >= n || std::abs(at - k) > .5 - 1e-6) // of two nodes at the same distance none
+          const std::size_t k = std::lround(at_point[p] / length() * n);
+          if (k <= last || k >= n)
             continue;
           result[k] = at_point[p];
           is_corner[k] = true;
@@ -319,12 +318,11 @@ namespace Voussoir
 
   namespace
   {
-    /** Smooths the nodes near the bank. All nodes move at the same time, by half of the way: so a symmetric section
-     * remains symmetric. */
+    /** Smooths the nodes near the bank. */
     void smooth(WaterSection &section, const Bank &bank, const std::vector<unsigned int> &stairs,
                 const std::vector<bool> &is_corner)
     {
-      constexpr unsigned int              sweeps = 120, rings = 2;
+      constexpr unsigned int              sweeps = 60, rings = 2;
       std::vector<std::set<unsigned int>> neighbours(section.points.size());
       for (const auto &cell : section.cells)
         for (unsigned int k = 0; k < 4; ++k)
@@ -351,34 +349,29 @@ namespace Voussoir
       };
       for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
       {
-        std::vector<Point2>       points = section.points;
-        const std::vector<double> before = place;
         for (const unsigned int node : moving)
         {
           const Point2 target = mean(node);
-          points[node] =
-              between(points[node], {target[0], section.at_surface[node] ? points[node][1] : target[1]}, .5);
+          section.points[node] = {target[0], section.at_surface[node] ? section.points[node][1] : target[1]};
         }
         for (std::size_t k = 1; k + 1 < section.bank.size(); ++k)
         {
           if (is_corner[k])
             continue;
-          const double room = .2 * (before[k + 1] - before[k - 1]);
-          place[k] = .5 * (before[k] + std::clamp(bank.nearest(mean(section.bank[k])).first,
-                                                  before[k - 1] + room, before[k + 1] - room));
-          points[section.bank[k]] = bank.at(place[k]);
+          const double room = .2 * (place[k + 1] - place[k - 1]);
+          place[k] =
+              std::clamp(bank.nearest(mean(section.bank[k])).first, place[k - 1] + room, place[k + 1] - room);
+          section.points[section.bank[k]] = bank.at(place[k]);
         }
-        section.points = std::move(points);
       }
     }
 
-    /** Finds x and the monoliths of the wet face at a point, by the bilinear map of the face that holds it, or else of
-     * the nearest face. A point at a joint has several monoliths, in ascending order. */
-    std::pair<double, std::vector<int>> on_face(const std::vector<WetQuad> &faces, const Point2 &p)
+    /** Finds x and the monolith of the wet face at a point, by the bilinear map of the face that holds it, or else of
+     * the nearest face. */
+    std::pair<double, int> on_face(const std::vector<WetQuad> &faces, const Point2 &p)
     {
-      constexpr double      slack = 1e-5; // relative to a face
-      double                x = 0., least = 1e300;
-      std::map<int, double> outside_of; // by monolith
+      std::pair<double, int> best;
+      double                 least = 1e300;
       for (const WetQuad &face : faces)
       {
         const auto &c = face.corners;
@@ -407,16 +400,14 @@ namespace Voussoir
         {
           least = outside;
           s = std::clamp(s, 0., 1.), t = std::clamp(t, 0., 1.);
-          x = (1 - s) * (1 - t) * c[0][0] + s * (1 - t) * c[1][0] + s * t * c[2][0] + (1 - s) * t * c[3][0];
+          best = {(1 - s) * (1 - t) * c[0][0] + s * (1 - t) * c[1][0] + s * t * c[2][0] +
+                      (1 - s) * t * c[3][0],
+                  face.monolith};
         }
-        const auto found = outside_of.emplace(face.monolith, outside).first;
-        found->second = std::min(found->second, outside);
+        if (least == 0.)
+          break;
       }
-      std::pair<double, std::vector<int>> result(x, {});
-      for (const auto &[monolith, outside] : outside_of)
-        if (outside <= least + slack)
-          result.second.push_back(monolith);
-      return result;
+      return best;
     }
   } // namespace
 
@@ -467,13 +458,9 @@ namespace Voussoir
                      h);
     for (const Point2 &point : points)
     {
-      auto [x, of] = on_face(faces, point);
+      const auto [x, of] = on_face(faces, point);
       face_x.push_back(x);
-      monoliths.push_back(std::move(of));
+      monolith.push_back(of);
     }
-    for (const auto &cell : cells)
-      of_cell.push_back(on_face(faces, between(between(points[cell[0]], points[cell[2]], .5),
-                                               between(points[cell[1]], points[cell[3]], .5), .5))
-                            .second.front());
   }
 } // namespace Voussoir

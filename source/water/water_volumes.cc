@@ -36,34 +36,14 @@ namespace Voussoir
       return {{area[0] / size, area[1] / size, area[2] / size}};
     }
 
-    /** Returns the distance of a point from a bilinear quadrilateral [m], by alternating projections onto its lines. */
-    double distance_from(const std::array<Vector3, 4> &x, const Vector3 &p)
-    {
-      double     distance = 0., s = .5, t = .5;
-      const auto on_line = [](const Vector3 &a, const Vector3 &b, const double f) {
-        return Vector3{{a[0] + f * (b[0] - a[0]), a[1] + f * (b[1] - a[1]), a[2] + f * (b[2] - a[2])}};
-      };
-      const auto project = [&](const Vector3 &a, const Vector3 &b)
-      {
-        const double f = std::clamp(dot(p - a, b - a) / std::max(dot(b - a, b - a), 1e-30), 0., 1.);
-        distance = norm(p - on_line(a, b, f));
-        return f;
-      };
-      for (unsigned int k = 0; k < 40; ++k)
-      {
-        s = project(on_line(x[0], x[3], t), on_line(x[1], x[2], t));
-        t = project(on_line(x[0], x[1], s), on_line(x[3], x[2], s));
-      }
-      return distance;
-    }
-
     /** Points of the upstream face of the dam, five by five on each quadrilateral. */
     class DamFace
     {
     public:
       explicit DamFace(const std::vector<WetQuad> &faces) : faces(faces)
       {
-        constexpr unsigned int n = 4;
+        constexpr unsigned int              n = 4;
+        std::map<int, std::vector<Vector3>> of_monolith;
         for (std::size_t f = 0; f < faces.size(); ++f)
           for (unsigned int a = 0; a <= n; ++a)
             for (unsigned int b = 0; b <= n; ++b)
@@ -76,8 +56,11 @@ namespace Voussoir
                   p[d] += N[k] * faces[f].corners[k][d];
               points.push_back(p);
               face_of.push_back(f);
+              of_monolith[faces[f].monolith].push_back(p);
             }
         finder = std::make_unique<PointFinder>(points);
+        for (const auto &[monolith, its_points] : of_monolith)
+          finders.emplace(monolith, its_points);
       }
 
       /** Returns true if the quadrilateral lies on the face: its corners are within a tenth of the element size of it,
@@ -99,25 +82,18 @@ namespace Voussoir
 
       double distance(const Vector3 &p) const { return finder->nearest(p).distance; }
 
-      /** Returns the nearest monolith; at a joint those of all sides, in ascending order. @p slack [m]. */
-      std::vector<int> monoliths_at(const Vector3 &p, const double slack) const
+      /** Returns the nearest monolith; at a joint the one with the smaller number. */
+      int monolith_at(const Vector3 &p) const
       {
-        const double          reach = distance(p) + slack;
-        double                least = 1e300;
-        std::map<int, double> distance_of; // by monolith
-        for (const WetQuad &face : faces)
-          if (distance_between(face.corners[0], p) <= 2. * longest_edge(face.corners) + reach)
+        int    best = 0;
+        double least = 1e300;
+        for (const auto &[monolith, its_finder] : finders)
+          if (const double far = its_finder.nearest(p).distance; far < least - 1e-6)
           {
-            const double far = distance_from(face.corners, p);
-            const auto   found = distance_of.emplace(face.monolith, far).first;
-            found->second = std::min(found->second, far);
-            least = std::min(least, far);
+            least = far;
+            best = monolith;
           }
-        std::vector<int> result;
-        for (const auto &[monolith, far] : distance_of)
-          if (far <= least + slack)
-            result.push_back(monolith);
-        return result;
+        return best;
       }
 
     private:
@@ -125,6 +101,7 @@ namespace Voussoir
       std::vector<Vector3>         points;
       std::vector<std::size_t>     face_of; ///< per point
       std::unique_ptr<PointFinder> finder;
+      std::map<int, PointFinder>   finders; ///< by monolith
     };
 
     using Face = WaterMesh::Face;
@@ -383,12 +360,11 @@ namespace Voussoir
   WaterMesh read_volumes(const HexMesh &volumes, const std::vector<WetQuad> &dam, const double level,
                          WaterProperties &properties)
   {
-    const Volumes                 sorted(volumes, dam, level, properties.depth);
-    const unsigned int            none = -1;
-    std::vector<unsigned int>     number(volumes.nodes.size(), none);
-    WaterMesh                     mesh;
-    std::vector<std::vector<int>> monoliths;
-    const auto                    add_node = [&](const unsigned int node)
+    const Volumes             sorted(volumes, dam, level, properties.depth);
+    const unsigned int        none = -1;
+    std::vector<unsigned int> number(volumes.nodes.size(), none);
+    WaterMesh                 mesh;
+    const auto                add_node = [&](const unsigned int node)
     {
       if (number[node] != none)
         return false;
@@ -405,7 +381,7 @@ namespace Voussoir
     for (const Face &face : sorted.wet)
       for (const unsigned int node : face)
         if (add_node(node))
-          monoliths.push_back(sorted.dam.monoliths_at(volumes.nodes[node], 1e-5 * sorted.h));
+          mesh.monolith.push_back(sorted.dam.monolith_at(volumes.nodes[node]));
     for (unsigned int node = 0; node < number.size(); ++node)
       add_node(node);
     const auto renumbered = [&](auto nodes)
@@ -426,10 +402,6 @@ namespace Voussoir
       for_points(corners(volumes.nodes, face),
                  [&](const Vector3 &area, const auto &) { add(mesh.wet_area, area); });
     mesh.of_file = true;
-    mesh.separate(monoliths,
-                  [&](const unsigned int cell) {
-                    return sorted.dam.monoliths_at(centre(volumes, volumes.cells[cell].nodes), 0.).front();
-                  });
     mesh.last_length = sorted.last_length;
     properties.h = sorted.h;
     mesh.link();

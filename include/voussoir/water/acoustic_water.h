@@ -75,7 +75,7 @@ namespace Voussoir
     /** Returns the middle of the wet face at a depth [m]. Throws InputError if the depth is too large. */
     PressurePoint point_at(double depth) const;
 
-    /** Returns the mean value of the nearest water nodes at each node of the model of the dam; zero at dry nodes. @p values:
+    /** Returns the value of the nearest water node at each node of the model of the dam; zero at dry nodes. @p values:
      * one per water node at the dam. */
     std::vector<double> at_dam(const std::vector<double> &values) const;
 

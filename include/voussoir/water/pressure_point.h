@@ -17,8 +17,8 @@ namespace Voussoir
     double value(const std::vector<double> &values) const;
   };
 
-  /** Returns the point at the height @p z [m]. Above or below the water of the mesh it is the highest or lowest point. At
-   * a joint it is the mean of both sides. */
+  /** Returns the point at the height @p z [m]. Above or below the water of the mesh it is the highest or lowest
+   * point. */
   PressurePoint pressure_point(const WaterMesh &mesh, double z);
 } // namespace Voussoir
 

@@ -13,8 +13,7 @@ namespace Voussoir
   /** Coupling of the water nodes at the wet face with the nodes of the dam.
    *
    * Each face of the dam is divided into parts of at most a quarter of the water's element size. The area vector of a
-   * part belongs to the nearest water node of the same monolith, in equal shares to nodes at the same distance. So each
-   * monolith has its exact area, no water node acts on two monoliths, and a symmetric dam has symmetric water. */
+   * part belongs to the nearest water node of the same monolith. So each monolith has its exact area, and no water node acts on two monoliths. */
   struct WaterCoupling
   {
     /** Area vector that a water node shares with a node of the dam. */
@@ -37,8 +36,7 @@ namespace Voussoir
     std::vector<unsigned int> dam_nodes; ///< free nodes of the dam at the water, ascending
     std::vector<Share>        shares;    ///< sorted by water node
     std::vector<Vector3>      area;      ///< per water node [m^2]
-    std::vector<std::vector<unsigned int>>
-        nearest; ///< water nodes at each node of the model; none: it is dry
+    std::vector<unsigned int> nearest;   ///< water node at each node of the model; rigid_ground: it is dry
   };
 } // namespace Voussoir
 

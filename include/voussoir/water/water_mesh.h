@@ -6,7 +6,6 @@
 #include <voussoir/water/water_section.h>
 
 #include <cmath>
-#include <functional>
 
 namespace Voussoir
 {
@@ -42,13 +41,6 @@ namespace Voussoir
     std::vector<unsigned int> far; ///< per node: the nearest one of the end, as number in far_channel()
 
     unsigned int n_wet() const { return static_cast<unsigned int>(monolith.size()); } ///< nodes at the dam
-
-    /** Divides the nodes at joints of the dam, so that each monolith has its own one, and sets #monolith. The elements
-     * at the dam are then separate at the joint.
-     * @param monoliths per node at the dam: ascending, several at a joint
-     * @param of_cell returns the monolith in front of the centre of a cell */
-    void separate(const std::vector<std::vector<int>>    &monoliths,
-                  const std::function<int(unsigned int)> &of_cell);
 
     /** Numbers #column and #far, and sets #places. */
     void link();

@@ -18,8 +18,7 @@ namespace Voussoir
    * @param model AcousticWater::model_for(0)
    * @param modes modes with incompressible water, ascending; receives the frequencies [Hz], ascending. The
    * shapes remain.
-   * @param count number of modes to return: the lowest ones found from all given modes. At least eight more should be
-   * given, because a later mode can end at a lower frequency
+   * @param count number of modes to replace; the others complete the basis and are removed
    *
    * Returns the damping ratio of each mode by radiation at the end of the channel, and by absorption at bed and banks
    * [-]. It is not a number for a mode that keeps its frequency, because the iteration did not converge, or converged

@@ -37,8 +37,7 @@ namespace Voussoir
     std::vector<unsigned int>                bank;   ///< chain of nodes from the right end of the water line
     std::vector<bool>                        at_surface; ///< per node: on the water line
     std::vector<double>                      face_x;     ///< per node: x of the wet face [m]
-    std::vector<std::vector<int>>            monoliths;  ///< per node: at a joint those of all sides
-    std::vector<int>                         of_cell;    ///< per cell: monolith at its centre
+    std::vector<int>                         monolith;   ///< per node: monolith of the wet face
 
     /** @param faces upstream face of the dam, above and below the water level
      * @param level water level [m]
