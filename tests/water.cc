@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 using namespace Voussoir;
 using namespace Testing;
@@ -307,12 +308,70 @@ namespace
     throws<InputError>("too short", [&] { read(height); }, {"depth of 60 m"});
   }
 
+  /** The pressure of a height is that in the middle of the face, also between the nodes, at the bottom and at the level. */
+  void pressure_points()
+  {
+    const auto            faces = valley([](const double z) { return 21. + .7 * z; });
+    const WaterProperties water{1000., 1440., .5, height, 120., 15.};
+    const WaterMesh       mesh = make_channel(WaterSection(faces, height, 15.), water);
+    std::vector<double>   z;
+    for (unsigned int i = 0; i < mesh.n_wet(); ++i)
+      z.push_back(mesh.points[i][2]);
+    for (const double at : {0., 7.3, 30., 55., 60.})
+    {
+      const PressurePoint point = pressure_point(mesh, at);
+      expect_within(point.value(z), at, 1e-6, "value at the height");
+      expect_within(point.place[1], 0., 1e-6, "middle of the face");
+    }
+  }
+
+  /** Rigid walls in a mesh file that are errors of the mesh: nodes below the level, nodes that are not shared, a missing
+   * layer. */
+  void rigid_walls()
+  {
+    const auto      faces = valley([](double) { return 30.; });
+    WaterProperties water{1000., 1440., .5, height, 120., 10.};
+    const HexMesh   whole = volumes_of(make_channel(WaterSection(faces, height, 10.), water));
+    const auto      read = [&](const HexMesh &file) { read_volumes(file, faces, height, water); };
+    read(whole);
+    HexMesh low = whole;
+    for (Vector3 &x : low.nodes) // the surface near the dam remains at the level
+      if (x[2] > height - 1e-6 && x[0] < -25.)
+        x[2] -= .02;
+    throws<InputError>("surface 2 cm below the level", [&] { read(low); }, {"rigid cover", "0.02 m below"});
+    HexMesh apart = whole; // each cell beyond x = -25 m has its own nodes
+    HexMesh gap = whole;
+    gap.cells.clear();
+    std::map<unsigned int, unsigned int> copy;
+    for (HexMesh::Cell &cell : apart.cells)
+    {
+      const double x = centre(whole, cell.nodes)[0];
+      if (x < -25. || x > -15.)
+        gap.cells.push_back(cell);
+      for (unsigned int &node : cell.nodes)
+        if (x < -25.)
+        {
+          const auto [found, is_new] = copy.emplace(node, apart.nodes.size());
+          if (is_new)
+            apart.nodes.push_back(whole.nodes[node]);
+          node = found->second;
+        }
+    }
+    throws<InputError>("a missing layer", [&] { read(gap); }, {"no connection"});
+    for (HexMesh::Cell &cell : apart.cells) // the parts remain connected at the banks
+      for (unsigned int &node : cell.nodes)
+        for (const auto &[old, its_copy] : copy)
+          if (node == its_copy && std::abs(whole.nodes[old][1]) > 25.)
+            node = old;
+    throws<InputError>("nodes that are not shared", [&] { read(apart); }, {"water on both sides", "Merge"});
+  }
+
   void wrong_sections()
   {
     auto faces = valley([](double) { return 30.; });
     throws<InputError>("level above", [&] { WaterSection(faces, 61., 5.); }, {"above", "61"});
     throws<InputError>("level below", [&] { WaterSection(faces, -1., 5.); }, {"level"});
-    throws<InputError>("too coarse", [&] { WaterSection(faces, height, 40.); }, {"Element size", "28"});
+    throws<InputError>("too coarse", [&] { WaterSection(faces, height, 40.); }, {"40 m"});
     faces[40].corners[0][1] += 20.;
     throws<InputError>("folded", [&] { WaterSection(faces, height, 5.); }, {"folded", "Westergaard"});
   }
@@ -327,5 +386,7 @@ int main()
               {"banks", banks},
               {"own mesh", own_mesh},
               {"wrong own mesh", wrong_mesh},
+              {"pressure points", pressure_points},
+              {"rigid walls", rigid_walls},
               {"wrong sections", wrong_sections}});
 }

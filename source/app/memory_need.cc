@@ -5,6 +5,7 @@
 #include <voussoir/joints/body_factor.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
+#include <voussoir/water/water_size.h>
 
 #include <omp.h>
 
@@ -197,9 +198,8 @@ namespace Voussoir
     /** Acoustic water: its nodes, and the reaction in the stiffness of the bodies. @p n_blocks: of the stiffness. */
     double of_water(const ReservoirParameters &reservoir, const HexMesh &mesh, const double n_blocks)
     {
-      constexpr double per_water_node = 850.;
       if (mesh.water != nullptr)
-        return per_water_node * mesh.water->nodes.size() + block * n_blocks;
+        return bytes_per_water_node * mesh.water->nodes.size() + block * n_blocks;
       double area = 0., bottom = reservoir.level; // of the section below the water level
       for (const HexMesh::Face &face : mesh.faces)
         if (face.surface == PhysicalId::upstream)
@@ -220,12 +220,8 @@ namespace Voussoir
       const double depth = reservoir.level - bottom;
       if (!(depth > 0.))
         return 0.;
-      const double h = reservoir.element_size > 0. ? reservoir.element_size : depth / 16.,
-                   length = reservoir.length > 0. ? reservoir.length : 2. * depth;
-      constexpr double growth = .05, damped = 5.; // see make_channel()
-      const double     layers =
-          length / (1.5 * h) + std::log1p(growth * damped * depth / (1.4 * h)) / std::log1p(growth);
-      return per_water_node * (layers + 2.) * (area / (h * h) + 3. * std::sqrt(area) / h) + block * n_blocks;
+      return bytes_per_water_node * channel_nodes(area, depth, reservoir.length, reservoir.element_size) +
+             block * n_blocks;
     }
 
     /** Returns the memory of the matrices of the dam [bytes]. @p factors: receives the memory of its factors. */

@@ -184,7 +184,7 @@ namespace Voussoir
     if (!dam.has_water)
       log.line("Water     none: the reservoir is empty");
     else if (dam.water)
-      dam.water->report(log);
+      dam.water->report(log, scene.output.pressure_depths);
     else
       log.line("Water     level %g m; added mass %s, %.4g kg along x", scene.reservoir.level,
                scene.reservoir.name_of_mass().c_str(), dam.added_mass);

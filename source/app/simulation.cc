@@ -130,7 +130,7 @@ namespace Voussoir
     {
       dam.water->prepare(n_steps > 0 ? motion.dt : 0., scene.steps_per_sample);
       for (const double depth : scene.output.pressure_depths)
-        dam.water->node_at(depth); // throws InputError
+        dam.water->point_at(depth); // throws InputError
     }
     if (checkpoint.provenance_now() != checkpoint.provenance)
       throw InputError("An input file of the scene changed while the program read it. Start the run again.");

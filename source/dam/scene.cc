@@ -247,8 +247,7 @@ namespace Voussoir
     prm.add_parameter(
         "Pressure depths", pressure_depths,
         "Depths below the water level whose dynamic pressure is written to history.csv, such as \"20, "
-        "50\" [m]. Reservoir/Model acoustic only. The water node nearest to the vertical line above "
-        "the deepest point is used.",
+        "50\" [m]. Reservoir/Model acoustic only. The point is the middle of the upstream face at the depth.",
         Patterns::List(Patterns::Double(0.)));
     prm.add_parameter("Envelope interval", envelope_interval,
                       "Number of steps between two evaluations of the stress envelopes [-]. 0: no envelopes.",

@@ -100,7 +100,7 @@ namespace Voussoir
 
   std::string FoundationSetup::about_steps() const
   {
-    return "; the scheme is implicit: there is no critical time step";
+    return "; the scheme of the dam is implicit, without a critical time step";
   }
 
   ContactResult BaseSupport::solve_static(const DamSolve &solve, const Unknowns &, const Unknowns &,

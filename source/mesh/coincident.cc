@@ -37,6 +37,20 @@ namespace Voussoir
     return {found[0].second, found[0].first.distance(wanted)};
   }
 
+  std::vector<unsigned int> PointFinder::all_nearest(const std::array<double, 3> &place,
+                                                     const double                 slack) const
+  {
+    const Point<3>           wanted(place[0], place[1], place[2]);
+    const double             least = nearest(place).distance;
+    std::vector<Tree::Entry> found;
+    tree->entries.query(boost::geometry::index::nearest(wanted, 8), std::back_inserter(found));
+    std::vector<unsigned int> result;
+    for (const auto &[point, number] : found)
+      if (point.distance(wanted) <= least + slack)
+        result.push_back(number);
+    return result;
+  }
+
   unsigned int PointFinder::find(const std::array<double, 3> &place) const
   {
     const Nearest found = nearest(place);

@@ -35,7 +35,7 @@ namespace Voussoir
     for (const double depth : run.scene().output.pressure_depths)
       if (const AcousticWater *water = run.dam->water.get())
         table.add("pressure_" + number_text(depth),
-                  [water, node = water->node_at(depth)] { return water->pressure()[node]; });
+                  [water, point = water->point_at(depth)] { return point.value(water->pressure()); });
   }
 
   void HistoryObserver::declare_point(const std::string &name, const unsigned int node)

@@ -5,6 +5,9 @@
 #include <voussoir/base/number_text.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/water/acoustic_water.h>
+#include <voussoir/water/water_size.h>
+
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -27,6 +30,78 @@ namespace Voussoir
     };
 
     constexpr double largest_mass_factor = 1.3, noticeable_mass_factor = 1.02;
+
+    /** Returns a size with three digits [m]. */
+    double rounded(const double h)
+    {
+      const double unit = std::pow(10., std::floor(std::log10(h)) - 2.);
+      return std::round(h / unit) * unit;
+    }
+
+    /** Throws InputError if the nodes of a channel do not fit into the memory. */
+    void check_size(const std::vector<WetQuad> &faces, const double level, const WaterProperties &properties)
+    {
+      double area = 0.;
+      for (const WetQuad &face : faces)
+      {
+        const auto &c = face.corners;
+        const auto [low, high] = std::minmax({c[0][2], c[1][2], c[2][2], c[3][2]});
+        area += .5 * std::abs(cross(c[2] - c[0], c[3] - c[1])[0]) *
+                std::clamp((level - low) / std::max(high - low, 1e-9), 0., 1.);
+      }
+      const double bytes = bytes_per_water_node *
+                           channel_nodes(area, properties.depth, properties.length, properties.h),
+                   memory = double(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE), gib = std::pow(2., 30);
+      if (bytes > memory)
+        throw InputError(
+            "Mesh of the water: elements of " + number_text(properties.h) + " m in a channel of " +
+            number_text(properties.length) + " m need about " + number_text(std::ceil(bytes / gib)) +
+            " GiB, more than the " + number_text(std::floor(memory / gib)) +
+            " GiB of this computer. Increase Reservoir/Element size, or reduce Reservoir/Length. The "
+            "defaults are " +
+            number_text(properties.depth / 16.) + " m and " + number_text(2. * properties.depth) + " m.");
+    }
+
+    /** Throws InputError for water elements that are too large, with a size that works, if there is one. */
+    [[noreturn]] void advise(const CoarseWater &error, const SolidModel &dam, const double level,
+                             WaterProperties properties)
+    {
+      const double coarse = properties.h;
+      for (unsigned int k = 0; k < 30; ++k)
+        try
+        {
+          properties.h = rounded(.9 * properties.h);
+          WaterCoupling(dam, make_channel(WaterSection(wet_quads(dam), level, properties.h), properties),
+                        level, properties.h);
+          throw InputError(error.what() +
+                           (" Set \"Reservoir/Element size\" to " + number_text(properties.h)) + ".");
+        }
+        catch (const CoarseWater &)
+        {
+        }
+      throw InputError(
+          error.what() + (" No size between " + number_text(properties.h) + " and " + number_text(coarse)) +
+          " m works either. Use a water mesh of your own, or set \"Reservoir/Model\" to Westergaard.");
+    }
+
+    /** Returns the mesh of the channel or of the file. Throws InputError if there is none. */
+    WaterMesh water_mesh_of(const SolidModel &dam, const double level, const HexMesh *volumes,
+                            WaterProperties &properties)
+    {
+      if (volumes != nullptr)
+        return read_volumes(*volumes, wet_quads(dam), level, properties);
+      try
+      {
+        check_size(wet_quads(dam), level, properties);
+        WaterMesh mesh = make_channel(WaterSection(wet_quads(dam), level, properties.h), properties);
+        WaterCoupling(dam, mesh, level, properties.h); // throws CoarseWater
+        return mesh;
+      }
+      catch (const CoarseWater &error)
+      {
+        advise(error, dam, level, properties);
+      }
+    }
 
     double depth_below(const std::vector<WetQuad> &faces, const double level)
     {
@@ -79,9 +154,7 @@ namespace Voussoir
                                const WaterProperties &given, const double level, const HexMesh *volumes)
       : level(level), dam(dam), structure(structure), foundation(foundation),
         properties(complete(given, depth_below(wet_quads(dam), level))),
-        water_mesh(volumes != nullptr
-                       ? read_volumes(*volumes, wet_quads(dam), level, properties)
-                       : make_channel(WaterSection(wet_quads(dam), level, properties.h), properties)),
+        water_mesh(water_mesh_of(dam, level, volumes, properties)),
         coupling(dam, water_mesh, level, properties.h), far_mesh(water_mesh.far_channel())
   {
     if (volumes != nullptr)
@@ -102,6 +175,28 @@ namespace Voussoir
                        " m2 (both along their mean normal). Mesh the water at the whole wet face.");
   }
 
+  /** Returns the words on larger elements, with a size for which the present time step is small enough. */
+  std::string AcousticWater::larger_elements() const
+  {
+    if (water_mesh.of_file)
+      return ", or use larger elements in the volumes \"water\" of the mesh file";
+    WaterProperties larger = properties;
+    larger.h *= std::max(1., .8 * std::sqrt(model->mass_factor / largest_mass_factor)); // near the right size
+    for (larger.h *= 1.1; larger.h < .5 * properties.depth; larger.h *= 1.1)
+      try
+      {
+        larger.h = rounded(larger.h);
+        const WaterMesh mesh = make_channel(WaterSection(wet_quads(dam), level, larger.h), larger);
+        if (WaterModel(mesh, larger, dt).mass_factor <= largest_mass_factor &&
+            !WaterCoupling(dam, mesh, level, larger.h).shares.empty())
+          return ", or \"Reservoir/Element size\" to " + number_text(larger.h);
+      }
+      catch (const CoarseWater &)
+      {
+      }
+    return "";
+  }
+
   void AcousticWater::prepare(const double time_step, const unsigned int steps_per_sample)
   {
     dt = time_step;
@@ -111,18 +206,16 @@ namespace Voussoir
       return;
     const double factor = model->mass_factor;
     unsigned int more = 2;
-    while (more < 64 && WaterModel(water_mesh, properties, dt / more).mass_factor > largest_mass_factor)
+    while (WaterModel(water_mesh, properties, dt / more).mass_factor > largest_mass_factor)
       more *= 2;
     throw InputError("Compressible water: the time step of " + number_text(dt) +
                      " s is above the critical time step of the water, " + number_text(model->critical_step) +
                      " s. It would need " + number_text(std::round(100. * factor) / 100.) +
                      " times the mass of the water (limit 1.3). Set \"Dynamics/Steps per sample\" to " +
-                     std::to_string(more * steps_per_sample) + ", or use water elements larger than " +
-                     number_text(properties.h) +
-                     " m (Reservoir/Element size, or the water volumes of the mesh file).");
+                     std::to_string(more * steps_per_sample) + larger_elements() + ".");
   }
 
-  void AcousticWater::report(Log &log) const
+  void AcousticWater::report(Log &log, const std::vector<double> &depths) const
   {
     log.line("Water     level %g m; %u nodes, elements of %.3g m, %.3g m3", level, model->n_nodes(),
              properties.h, model->volume);
@@ -137,6 +230,12 @@ namespace Voussoir
       return;
     log.line("          compressible; critical time step %.3g s; mass increased by the factor %.3f",
              model->critical_step, model->mass_factor);
+    for (const double depth : depths)
+    {
+      const Vector3 at = point_at(depth).place;
+      log.line("          pressure_%s at (%.2f, %.2f, %.2f) m", number_text(depth).c_str(), at[0], at[1],
+               at[2]);
+    }
     if (!foundation.moves_base())
       log.line(
           "          bed and banks move with the free field of the rock; the water does not act on the rock "
@@ -407,20 +506,13 @@ namespace Voussoir
     return result;
   }
 
-  unsigned int AcousticWater::node_at(const double depth) const
+  PressurePoint AcousticWater::point_at(const double depth) const
   {
-    const auto    first = water_mesh.points.begin(), last = first + water_mesh.n_wet();
-    const Vector3 deepest =
-        *std::min_element(first, last, [](const Vector3 &a, const Vector3 &b) { return a[2] < b[2]; });
     if (depth > properties.depth)
       throw InputError("Output/Pressure depths contains " + number_text(depth) +
                        " m, but the depth of the reservoir is " + number_text(properties.depth) +
                        " m. Reduce it.");
-    const auto distance = [&](const Vector3 &p)
-    { return std::hypot(p[1] - deepest[1], p[2] - level + depth); };
-    return std::min_element(first, last,
-                            [&](const Vector3 &a, const Vector3 &b) { return distance(a) < distance(b); }) -
-           first;
+    return pressure_point(water_mesh, level - depth);
   }
 
   std::vector<double> AcousticWater::at_dam(const std::vector<double> &values) const

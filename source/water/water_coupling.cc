@@ -108,11 +108,10 @@ namespace Voussoir
               quads[f].is_clockwise ? cross(along, up) : cross(up, along); // out of the water
           const unsigned int water = finder.find(p, wet[f].monolith);
           if (water == rigid_ground)
-            throw InputError("Mesh of the water: " + physical_name(3, wet[f].monolith) +
-                             " has no water node near y = " + number_text(p[1]) +
-                             " m, z = " + number_text(p[2]) +
-                             " m. Reduce Reservoir/Element size, for example to " + number_text(.7 * h) +
-                             " m. Water volumes of a mesh file must touch every monolith.");
+            throw CoarseWater(
+                "Mesh of the water: " + physical_name(3, wet[f].monolith) +
+                " has no water node near y = " + number_text(p[1]) + " m, z = " + number_text(p[2]) + " m." +
+                (mesh.of_file ? " Water volumes of a mesh file must touch every monolith." : ""));
           add(area[water], part);
           for (unsigned int k = 0; k < 4; ++k)
             for (unsigned int d = 0; d < 3; ++d)

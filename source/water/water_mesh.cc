@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/mesh/coincident.h>
 #include <voussoir/water/water_mesh.h>
+#include <voussoir/water/water_size.h>
 
 #include <algorithm>
 #include <cmath>
@@ -34,6 +35,14 @@ namespace Voussoir
       return layers;
     }
   } // namespace
+
+  double channel_nodes(const double area, const double depth, const double length, const double h)
+  {
+    const double size = h > 0. ? h : depth / 16., undamped = length > 0. ? length : 2. * depth,
+                 layers = undamped / (1.5 * size) +
+                          std::log1p((growth - 1.) * damped_depths * depth / (1.4 * size)) / std::log(growth);
+    return (layers + 2.) * (area / (size * size) + 3. * std::sqrt(area) / size);
+  }
 
   std::vector<unsigned int> WaterMesh::end_nodes() const
   {
@@ -146,6 +155,8 @@ namespace Voussoir
         mesh.bed.push_back({node(k - 1, section.bank[b]), node(k, section.bank[b]),
                             node(k, section.bank[b + 1]), node(k - 1, section.bank[b + 1])});
     }
+    for (const auto &cell : section.cells)
+      mesh.wet.push_back(cell);
     for (const auto &[a, b, c, d] : section.cells)
       mesh.end.push_back({node(layers.size() - 1, d), node(layers.size() - 1, c), node(layers.size() - 1, b),
                           node(layers.size() - 1, a)});

@@ -48,7 +48,7 @@ namespace Voussoir
             throw InputError(
                 "Mesh of the water: the upstream face is folded as seen along the river, near y = " +
                 number_text(face.corners[k][1]) + " m, z = " + number_text(face.corners[k][2]) +
-                " m. The water mesh is extruded from this face. Set Reservoir/Model to Westergaard.");
+                " m. The water mesh is extruded from this face. Use a water mesh of your own, or set Reservoir/Model to Westergaard.");
           sign = of_corner;
         }
     }
@@ -238,8 +238,7 @@ namespace Voussoir
 
     [[noreturn]] void too_coarse(const std::string &why, const double h)
     {
-      throw InputError("Mesh of the water: " + why + " with water elements of " + number_text(h) +
-                       " m. Reduce Reservoir/Element size, for example to " + number_text(.7 * h) + " m.");
+      throw CoarseWater("Mesh of the water: " + why + " with water elements of " + number_text(h) + " m.");
     }
 
     /** Squares below the water line by column and row, from the lower right corner. */

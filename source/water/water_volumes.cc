@@ -125,6 +125,8 @@ namespace Voussoir
             put(face, one->cell);
           }
         check_contact();
+        check_connection();
+        check_bed();
         find_end();
       }
 
@@ -190,6 +192,88 @@ namespace Voussoir
         if (std::none_of(at_surface.begin(), at_surface.end(), [](const bool is) { return is; }))
           fail("only single nodes reach the water level of " + number_text(level) +
                " m, and no face. Make the surface of the water plane.");
+      }
+
+      /** Throws InputError for a cell that no chain of common nodes connects with a wet face. */
+      void check_connection() const
+      {
+        std::vector<bool> reached(volumes.nodes.size(), false), done(volumes.cells.size(), false);
+        std::vector<std::vector<unsigned int>> cells(volumes.nodes.size()); // of each node
+        for (unsigned int c = 0; c < volumes.cells.size(); ++c)
+          for (const unsigned int node : volumes.cells[c].nodes)
+            cells[node].push_back(c);
+        std::vector<unsigned int> next;
+        const auto                reach = [&](const auto &nodes)
+        {
+          for (const unsigned int node : nodes)
+            if (!reached[node])
+            {
+              reached[node] = true;
+              next.push_back(node);
+            }
+        };
+        for (const Face &face : wet)
+          reach(face);
+        while (!next.empty())
+        {
+          const unsigned int node = next.back();
+          next.pop_back();
+          for (const unsigned int c : cells[node])
+            if (!done[c])
+            {
+              done[c] = true;
+              reach(volumes.cells[c].nodes);
+            }
+        }
+        const std::size_t c = std::find(done.begin(), done.end(), false) - done.begin();
+        if (c < done.size())
+          fail(
+              "the hexahedron at " + place(centre(volumes, volumes.cells[c].nodes)) +
+              " has no connection with the water at the dam by common nodes. Fill the gap, or merge the nodes of both "
+              "parts (gmsh: Coherence Mesh).");
+      }
+
+      /** Throws InputError for a rigid wall that the file hardly means: a cover of the water near its level, and a
+       * face with water on both sides. */
+      void check_bed() const
+      {
+        std::vector<Vector3> centres;
+        for (const HexMesh::Cell &cell : volumes.cells)
+          centres.push_back(centre(volumes, cell.nodes));
+        const PointFinder cells(centres);
+        for (const Face &face : bed)
+        {
+          const auto    x = corners_of(face);
+          const double  size = longest_edge(x);
+          const Vector3 n = normal_of(x), at = centre(volumes, face);
+          if (n[2] > .7 && at[2] > level - std::max(.1 * depth, size))
+            fail(
+                "the outer face at " + place(at) + " faces upward, " + number_text(level - at[2]) +
+                " m below Reservoir/Water level. It would be a rigid cover. Move all nodes of the water surface to z = " +
+                number_text(level) + " m.");
+          Vector3 outside = at;
+          for (unsigned int d = 0; d < 3; ++d)
+            outside[d] += 1e-3 * size * n[d];
+          const std::vector<unsigned int> near = cells.all_nearest(outside, 2. * size);
+          if (std::any_of(near.begin(), near.end(), [&](const unsigned int c) { return holds(c, outside); }))
+            fail(
+                "the outer face at " + place(at) +
+                " has water on both sides: its nodes coincide with others, but are not shared. It would be a rigid "
+                "wall. Merge the nodes (gmsh: Coherence Mesh), with equal elements on both sides.");
+        }
+      }
+
+      /** Returns true if a point is in a cell with nearly plane faces. */
+      bool holds(const unsigned int cell, const Vector3 &p) const
+      {
+        return std::all_of(std::begin(hex_faces), std::end(hex_faces),
+                           [&](const unsigned int(&corner)[4])
+                           {
+                             Face face;
+                             for (unsigned int k = 0; k < 4; ++k)
+                               face[k] = volumes.cells[cell].nodes[corner[k]];
+                             return dot(p - Vector3(centre(volumes, face)), normal_of(corners_of(face))) < 0.;
+                           });
       }
 
       /** Moves the faces of the end from #bed to #end. */
@@ -308,6 +392,8 @@ namespace Voussoir
     };
     for (const HexMesh::Cell &cell : volumes.cells)
       mesh.cells.push_back(renumbered(cell.nodes));
+    for (const Face &face : sorted.wet)
+      mesh.wet.push_back(renumbered(face));
     for (const Face &face : sorted.bed)
       mesh.bed.push_back(renumbered(face));
     for (const Face &face : sorted.end)

@@ -30,6 +30,10 @@ namespace Voussoir
     /** Returns the point nearest to @p place, at any distance. */
     Nearest nearest(const std::array<double, 3> &place) const;
 
+    /** Returns the numbers of up to eight points whose distance exceeds the least one by at most @p slack [m]. So points at
+     * the same distance do not depend on round-off. */
+    std::vector<unsigned int> all_nearest(const std::array<double, 3> &place, double slack) const;
+
   private:
     struct Tree;
     std::unique_ptr<Tree> tree;

@@ -4,6 +4,7 @@
 
 #include <voussoir/foundation/base_motion.h>
 #include <voussoir/foundation/foundation.h>
+#include <voussoir/water/pressure_point.h>
 #include <voussoir/water/water_coupling.h>
 
 #include <memory>
@@ -71,9 +72,8 @@ namespace Voussoir
     /** Returns the dynamic pressure at each water node at the dam [Pa]. */
     std::vector<double> pressure() const;
 
-    /** Returns the water node at the dam nearest to the vertical line above the deepest point, at a depth [m]. Throws
-     * InputError if the depth is too large. */
-    unsigned int node_at(double depth) const;
+    /** Returns the middle of the wet face at a depth [m]. Throws InputError if the depth is too large. */
+    PressurePoint point_at(double depth) const;
 
     /** Returns the value of the nearest water node at each node of the model of the dam; zero at dry nodes. @p values:
      * one per water node at the dam. */
@@ -91,17 +91,18 @@ namespace Voussoir
      * file, for the message. */
     void prepare(double dt, unsigned int steps_per_sample);
 
-    /** Writes the properties to the log. */
-    void report(Log &log) const;
+    /** Writes the properties to the log, and the places of point_at() for the @p depths [m]. */
+    void report(Log &log, const std::vector<double> &depths) const;
 
     const double level;          ///< of the water [m]
     double       gravity = 9.81; ///< [m/s^2]
 
   private:
-    void check_cover() const;
-    void set_reaction();
-    void find_bed_velocity();
-    void advance_far_channel();
+    void        check_cover() const;
+    std::string larger_elements() const;
+    void        set_reaction();
+    void        find_bed_velocity();
+    void        advance_far_channel();
 
     const SolidModel             &dam;
     Structure                    &structure;

@@ -30,7 +30,7 @@ namespace Voussoir
     bool                      of_file = false; ///< true: volumes of a mesh file, false: channel
     std::vector<Vector3>      points;          ///< nodes [m]; those at the dam come first
     std::vector<Cell>         cells;
-    std::vector<Face>         bed, end;
+    std::vector<Face>         wet, bed, end; ///< at the dam; at bed and banks; at the end
     Vector3                   wet_area{}; ///< of a mesh file: area at the dam, normal out of the water [m^2]
     std::vector<bool>         at_surface; ///< per node
     std::vector<int>          monolith;   ///< per node at the dam

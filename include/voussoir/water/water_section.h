@@ -2,6 +2,7 @@
 #ifndef voussoir_water_section_h
 #define voussoir_water_section_h
 
+#include <voussoir/base/error.h>
 #include <voussoir/base/tensor3.h>
 
 #include <array>
@@ -10,6 +11,12 @@
 namespace Voussoir
 {
   using Point2 = std::array<double, 2>; ///< y, z [m]
+
+  /** Water elements that are too large for the section. */
+  struct CoarseWater : InputError
+  {
+    using InputError::InputError;
+  };
 
   /** Quadrilateral of the wet face, as seen along the river. */
   struct WetQuad
@@ -36,8 +43,8 @@ namespace Voussoir
      * @param level water level [m]
      * @param h size of the squares [m]
      *
-     * Throws InputError if the face is folded as seen along the river, if the water level is not on the face, or
-     * if the section cannot be meshed with this size. */
+     * Throws InputError if the face is folded as seen along the river, or if the water level is not on the face;
+     * CoarseWater if the section cannot be meshed with this size. */
     WaterSection(const std::vector<WetQuad> &faces, double level, double h);
   };
 } // namespace Voussoir
