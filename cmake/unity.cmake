@@ -5,6 +5,7 @@
 #   2 deal.II's ParameterHandler: one group;
 #   1 another header of deal.II: one group;
 #   0 no header of deal.II: one group for each room.
+# Sources of base and contact stay alone, as programs link them without deal.II and MPI (doc/tutorials/5_own_law.md).
 # Sources of kernels (*_kernels.cc, *_kernel.cc, *_factor.cc) have unnamed types of the same names and stay alone.
 
 # Sets OUT to the highest level of the headers that FILE reaches.
@@ -39,7 +40,8 @@ function(voussoir_unity target)
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
   get_target_property(sources ${target} SOURCES)
   foreach(source ${sources})
-    if(NOT source MATCHES "_(kernels?|factor)\\.cc$" AND source MATCHES "/source/([^/]*)/[^/]*\\.cc$")
+    if(NOT source MATCHES "_(kernels?|factor)\\.cc$" AND NOT source MATCHES "/source/(base|contact)/"
+       AND source MATCHES "/source/([^/]*)/[^/]*\\.cc$")
       set(room ${CMAKE_MATCH_1})
       voussoir_reach(${source} level)
       if(level GREATER 0)
