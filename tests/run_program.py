@@ -388,7 +388,7 @@ def meshes():
 
     with_rock = ["--set", "Mesh/Arch210/Rock/Enabled=true"]
     runs("mesh", "scene.prm", "--output", "with_rock.msh", *with_rock)
-    refused(["scene.prm", "--validate", *from_file("dam.msh")], "rock", "Foundation/Model")
+    refused(["scene.prm", "--validate", *from_file("with_rock.msh")], "rock", "Foundation/Model")
     runs("mesh", "scene.prm", "--output", "without_rock.msh")
     refused(["scene.prm", "--validate", *from_file("without_rock.msh"), "--set", "Foundation/Model=rock"], "has no rock", "rigid")
     implied = runs("scene.prm", "--validate", "--set", "Foundation/Model=massless", "--set", "Mesh/Arch210/Rock/Element size=60")
