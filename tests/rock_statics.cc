@@ -74,7 +74,7 @@ namespace
     Solved result;
     result.share = 2. * RockAggregates(model.stiffness, model.points, held, strong_coupling()).n() /
                    n_nodes; // 6 and 3 per node
-    RockStatics statics(model, held, solver);
+    RockStatics statics(model, held, {}, solver);
     Log         log(true);
     result.iterations = statics.solve(b, x, log);
     model.stiffness.multiply(x.data(), Kx.data());

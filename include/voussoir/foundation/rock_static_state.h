@@ -35,6 +35,8 @@ namespace Voussoir
                         Log &log);
 
   private:
+    NodeSprings springs_of_far_rock() const;
+
     /** Computes the static displacements @p u_base of the base nodes [m] for the forces @p r on the rock,
      * three values per node of the dam [N]. @p part: see RockStatics::solve(). */
     void solve_rock(const Unknowns &r, double part, Unknowns &u_base, Log &log);
