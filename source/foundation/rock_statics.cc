@@ -78,9 +78,8 @@ namespace Voussoir
   {
     stiffness->multiply(x.data(), y.data());
     for (const auto &[node, spring] : springs)
-      if (split.owner(node) == Ranks::rank())
-        for (std::size_t k = 3 * std::size_t(node); k < 3 * std::size_t(node) + 3; ++k)
-          y[k] += component(spring, k, x);
+      for (std::size_t k = 3 * std::size_t(node); k < 3 * std::size_t(node) + 3; ++k)
+        y[k] += component(spring, k, x);
     everywhere(
         [&](const std::size_t k)
         {

@@ -8,6 +8,11 @@
 
 namespace Voussoir
 {
+  /** Returns the springs of the outer boundary of the rock for static loads near the @p centre [m]. Their stiffness is
+   * that of an infinite elastic space under a force in the centre: traction over displacement at the distance r, along
+   * and across r (Kelvin's solution). */
+  NodeSprings springs_of_far_rock(const RockModel &model, const Vector3 &centre);
+
   /** Static state of dam and explicit rock: fixed-point iteration for the displacements of the base nodes,
    * with Anderson acceleration (Walker and Ni 2011, SIAM J. Numer. Anal. 49). An iteration computes the dam
    * on stiff springs under the loads and the forces of the previous iteration. It then computes the rock
@@ -35,8 +40,6 @@ namespace Voussoir
                         Log &log);
 
   private:
-    NodeSprings springs_of_far_rock() const;
-
     /** Computes the static displacements @p u_base of the base nodes [m] for the forces @p r on the rock,
      * three values per node of the dam [N]. @p part: see RockStatics::solve(). */
     void solve_rock(const Unknowns &r, double part, Unknowns &u_base, Log &log);
