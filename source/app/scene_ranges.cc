@@ -4,6 +4,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/base/units.h>
+#include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/temperature.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ namespace Voussoir
     std::ostringstream text;
     text << used.what << " is " << value << unit << ": usual is " << range.low << " to " << range.high << unit
          << ".";
-    if (const auto example = examples.find(used.unit); example != examples.end())
+    if (const auto example = examples.find(used.unit); !used.in_file && example != examples.end())
       text << " A value may carry its unit, as in \"" << example->second << "\".";
     else if (used.unit == "degC" && value > 200.)
       text << " Is it in kelvin? 0 degC are 273.15 K.";
@@ -155,12 +156,30 @@ namespace Voussoir
                *std::max_element(curve.y.begin(), curve.y.end())}};
     }
 
+    NamedValues of_wedges(const Scene &scene, const std::string &column, double RockWedge::*number)
+    {
+      NamedValues values;
+      for (const RockWedge &wedge : rock_wedges(scene))
+        values.emplace_back(column + " of wedge " + wedge.name, wedge.*number);
+      return values;
+    }
+
+    NamedValues of_planes(const Scene &scene, const std::string &column, double WedgePlane::*number)
+    {
+      NamedValues values;
+      for (const RockWedge &wedge : rock_wedges(scene))
+        for (const WedgePlane &plane : wedge.planes)
+          values.emplace_back(column + " of plane " + plane.name + " of wedge " + wedge.name, plane.*number);
+      return values;
+    }
+
     /** Usual ranges of numbers in lists and tables. */
     struct ListedNumbers
     {
       const char *entry, *unit;
       UsualRange  range;
       NamedValues (*values)(const Scene &); ///< may throw InputError
+      bool in_file = false;                 ///< see UsedValue
     };
     const std::vector<ListedNumbers> listed_numbers = {
         {"Joints/Initial gaps", "m", {1e-5, .05, true}, gaps},
@@ -168,7 +187,37 @@ namespace Voussoir
         {"Statics/Stages", "Pa", {1e4, 5e6, true}, pressures_of_grout},
         {"Loads/Crest line", "N/m", {1e3, 5e6, true}, crest_line},
         {"Loads/Concentrated", "N", {1e3, 1e9, true}, concentrated_forces},
-        {"Reservoir/Table", "kg/m^2", {1e3, 1e6}, largest_added_mass}};
+        {"Reservoir/Table", "kg/m^2", {1e3, 1e6}, largest_added_mass, true},
+        {"Limits/Wedges",
+         "kg/m^3",
+         {2000., 3500.},
+         [](const Scene &s) { return of_wedges(s, "density", &RockWedge::density); },
+         true},
+        {"Limits/Wedges",
+         "m^3",
+         {10., 1e8},
+         [](const Scene &s) { return of_wedges(s, "volume", &RockWedge::volume); },
+         true},
+        {"Limits/Wedges",
+         "m^2",
+         {1., 1e6},
+         [](const Scene &s) { return of_planes(s, "area", &WedgePlane::area); },
+         true},
+        {"Limits/Wedges",
+         "-",
+         {.2, 3.},
+         [](const Scene &s) { return of_planes(s, "friction", &WedgePlane::friction); },
+         true},
+        {"Limits/Wedges",
+         "Pa",
+         {1e3, 1e7, true},
+         [](const Scene &s) { return of_planes(s, "cohesion", &WedgePlane::cohesion); },
+         true},
+        {"Limits/Wedges",
+         "Pa",
+         {1e3, 1e7, true},
+         [](const Scene &s) { return of_planes(s, "uplift", &WedgePlane::uplift); },
+         true}};
   } // namespace
 
   std::vector<UsedValue> values_of_sources(const Scene &scene)
@@ -182,8 +231,8 @@ namespace Voussoir
       try
       {
         for (const auto &[name, value] : row.values(scene))
-          values.push_back(
-              {std::string(row.entry) + ": " + name, row.entry, row.unit, value, row.entry, &row.range});
+          values.push_back({std::string(row.entry) + ": " + name, row.entry, row.unit, value, row.entry,
+                            &row.range, row.in_file});
       }
       catch (const InputError &) // reported where the numbers are used
       {
