@@ -165,6 +165,10 @@ namespace Voussoir
     /** Returns the reason why the entry has no effect, or an empty string if it has an effect. */
     std::string why_idle(const Scene &scene, const std::string &name)
     {
+      static const EntryNames of_modes = {"Damping/",       "Motion/Factor",  "Motion/Scale x",
+                                          "Motion/Scale y", "Motion/Scale z", "Motion/Vertical ratio"};
+      if (scene.is_for_modes && includes(of_modes, name))
+        return "";
       if (name.rfind("Foundation/", 0) == 0 && !foundation_reads(scene.foundation.model, name))
         return "Foundation/Model is " + scene.foundation.model;
       for (const IdleEntries &rule : rules())
