@@ -406,6 +406,12 @@ def stages():
         differ = max(math.dist(a, crests[0]) for a in crests)
         print(f"    {foundation}: crest {crests}, largest difference {1e3 * differ:.2g} mm, limit {limits[-1]:.2g} mm")
         expect(1e3 * differ < limits[-1], f"{foundation}: the increments change the crest by {differ} m")
+    steps = {}
+    for model in ("massless", "rock"):
+        runs("scene.prm", "--output", model, *ARCH, *BASE, *settings("Motion/Source=none", "Mesh/Arch210/Joints=3", f"Foundation/Model={model}"))
+        steps[model] = summary(model)["static"]["newton_iterations"]
+    print(f"    Newton steps of the static state: {steps}")
+    expect(steps["rock"] < 2 * steps["massless"], f"Newton steps {steps}")
     slippery = settings(*history, "Joints/Friction=0.2")
     refused(["scene.prm", "--output", "x", *ARCH, *BASE, *slippery], "weight alone", "monolith 1", "free-standing", "Statics/Self-weight")
     section("slope.msh", 6., 6., 9., 6, 6, slope=12.)

@@ -6,6 +6,7 @@
 """
 
 import json
+import math
 import re
 import sys
 from pathlib import Path
@@ -356,6 +357,22 @@ def own():
     same("own", "turned", 1e-5, ("history",))
 
 
+def symmetric():
+    """A symmetric dam with a joint at the crown under a symmetric motion, coarse water: the joint at the crown does not slip, and the others
+    slip by the same amount."""
+    write_scene()
+    Path("waves.txt").write_text("".join(f"{.01 * k} {12 * math.sin(.4 * k)} 0 {6 * math.sin(.6 * k)}\n" for k in range(41)))
+    for size in (24, 30, 36):
+        runs("scene.prm", "--output", "symmetric", *settings(
+            "Mesh/Arch210/Joints=3", "Mesh/Arch210/Elements along=12", "Mesh/Arch210/Elements up=4", "Mesh/Arch210/Elements through=1", "Joints/Friction=0.8",
+            "Reservoir/Model=acoustic", "Reservoir/Water level=195", "Reservoir/Reflection=0.8", f"Reservoir/Element size={size}", "Motion/Source=file",
+            "Motion/File=waves.txt", "Motion/Unit=m/s^2", "Motion/Time step=0.01", "Motion/Duration=0.4", "Dynamics/Steps per sample=4"), "--overwrite")
+        names, rows = table("symmetric/joint_history.csv")
+        slips = [max(row[names.index(f"slip_downstream_{joint}")] for row in rows) for joint in (1, 2, 3)]
+        print(f"    water elements of {size} m: slips {slips} m")
+        expect(slips[0] > .005 and slips[1] < 1e-7 and abs(slips[0] - slips[2]) < 1e-7, f"slips {slips}")
+
+
 def radiation():
     """The first mode of a stiff wall above the first frequency of the channel: complex frequency s with the shape of the mode in air,
     w^2 + s^2 (1 + Ma) = 0, Ma = 2 rho W/H sum (int phi cos k_n z)^2/kappa_n, kappa_n = sqrt(k_n^2 - |s|^2/c^2), for the modal mass 1."""
@@ -439,4 +456,4 @@ def messages():
 
 
 if __name__ == "__main__":
-    run_cases(pulse, ground, face, joints, rock, works, modes, own, radiation, messages)
+    run_cases(pulse, ground, face, joints, rock, works, modes, own, symmetric, radiation, messages)

@@ -24,11 +24,17 @@ namespace Voussoir
     constexpr double stiffest =
         4e10; // Young's modulus of concrete [Pa]; larger ones are those of rigid blocks
 
+    /** Returns true if dam and rock are solved in turn, with base joints between them. */
+    bool alternates_with_rock(const Dam &dam)
+    {
+      return dam.has_base_joints() && dam.scene.foundation.model == "rock";
+    }
+
     /** Returns the parameters of the contact solver in the static state. The forces of base joints determine the
      * displacements of rock with mass, and their errors those of the iterations between dam and rock. */
     ContactParameters in_statics(const Dam &dam, ContactParameters parameters)
     {
-      if (dam.has_base_joints() && dam.scene.foundation.model == "rock")
+      if (alternates_with_rock(dam))
         parameters.tolerance *= .01;
       return parameters;
     }
@@ -107,7 +113,8 @@ namespace Voussoir
     public:
       StaticHistory(Dam &dam, const ContactParameters &parameters, Log &log,
                     const std::function<void()> &stop_if_asked)
-          : dam(dam), parameters(in_statics(dam, parameters)), log(log), stop_if_asked(stop_if_asked),
+          : dam(dam), alternates(alternates_with_rock(dam)), parameters(in_statics(dam, parameters)),
+            log(log), stop_if_asked(stop_if_asked),
             sustained(dam.has_sustained_moduli() ? dam.sustained_structure() : Structure()),
             structure(dam.has_sustained_moduli() ? sustained : dam.structure),
             springs(dam.foundation->static_springs(structure)), base(dam.foundation->static_base(structure)),
@@ -299,14 +306,15 @@ namespace Voussoir
 
       /** Solves with the load f, and with base joints by iterations: (K + eps M) u = f + eps M u_k, where u_k is the
        * displacement of the previous iteration. They end when the force eps M (u - u_k) is negligible, or no longer
-       * falls. If it falls slowly, eps is reduced. */
+       * falls. If it falls slowly, eps is reduced. @p negligible: relative to the sum of all nodal loads. */
       ContactResult iterate(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
-                            const Unknowns &committed)
+                            const Unknowns &committed, const double negligible)
       {
-        constexpr unsigned int most = 100;                         // rounds
-        constexpr double       negligible = 1e-11, allowed = 1e-7; // of the sum of all nodal loads
+        constexpr unsigned int most = 100;     // rounds
+        constexpr double       allowed = 1e-7; // of the sum of all nodal loads
         ContactResult          total;
         double                 before = INFINITY;
+        system->set_tolerance(std::clamp(1e-2 * negligible, parameters.tolerance, 1e-6));
         for (unsigned int k = 0;; ++k)
         {
           stop_if_asked();
@@ -427,8 +435,18 @@ namespace Voussoir
         for (double &x : offset)
           x = -x;
         const Unknowns committed = state.memory;
-        const auto     solve = [&](const Unknowns &load) { return iterate(load, offset, start, committed); };
-        const auto     pressure = [&](const double z) // no pressure in joints before grouting
+        Unknowns       last(path.load(stage, 1.).size(), 0.);
+        double         negligible = alternates ? .1 : 1e-11;
+        const auto     solve =
+            [&](const Unknowns &load) // at first as exact as the rock, whose changes of the load fall
+        {
+          for (std::size_t k = 0; k < last.size(); ++k)
+            last[k] -= load[k];
+          negligible = std::max(1e-11, std::min(.2 * negligible, .1 * norm_1(last) / norm_1(load)));
+          last = load;
+          return iterate(load, offset, start, committed, negligible);
+        };
+        const auto pressure = [&](const double z) // no pressure in joints before grouting
         { return z > path.part(stage).grouted ? 0. : water_pressure(share, z); };
         ContactResult total;
         total.converged = true;
@@ -514,6 +532,7 @@ namespace Voussoir
       }
 
       const Dam                   &dam;
+      const bool                   alternates; ///< see alternates_with_rock()
       const ContactParameters      parameters;
       Log                         &log;
       const std::function<void()> &stop_if_asked;

@@ -34,20 +34,23 @@ namespace Voussoir
       NodeFinder(const WaterMesh &mesh, const double h) : of_file(mesh.of_file)
       {
         std::map<int, std::vector<Vector3>> points;
+        double                              right = INFINITY, left = -INFINITY;
         for (unsigned int i = 0; i < mesh.n_wet(); ++i)
         {
+          right = std::min(right, mesh.points[i][1]), left = std::max(left, mesh.points[i][1]);
           nodes[mesh.monolith[i]].push_back(i);
           points[mesh.monolith[i]].push_back(seen(mesh.points[i]));
         }
         for (const auto &[monolith, its_points] : points)
           finders.try_emplace(monolith, its_points, 4. * h);
+        middle = .5 * (right + left);
       }
 
       /** Returns the nearest node of the monolith within four element sizes, or rigid_ground. Of two nodes at the same
-       * distance it is the lower one. */
+       * distance it is the one nearer to the middle of the face, and then the lower one. */
       unsigned int find(Vector3 p, const int monolith) const
       {
-        p[1] -= 1e-6, p[2] -= 1e-6;
+        p[1] += p[1] < middle ? 2e-6 : -2e-6, p[2] -= 1e-6;
         const auto         finder = finders.find(monolith);
         const unsigned int found = finder == finders.end() ? PointFinder::none : finder->second.find(seen(p));
         return found == PointFinder::none ? rigid_ground : nodes.at(monolith)[found];
@@ -58,7 +61,8 @@ namespace Voussoir
       Vector3 seen(const Vector3 &p) const { return {{of_file ? p[0] : 0., p[1], p[2]}}; }
 
       const bool                               of_file;
-      std::map<int, std::vector<unsigned int>> nodes; ///< by monolith
+      double                                   middle; ///< of the water nodes, y [m]
+      std::map<int, std::vector<unsigned int>> nodes;  ///< by monolith
       std::map<int, PointFinder>               finders;
     };
   } // namespace

@@ -322,7 +322,7 @@ namespace Voussoir
     void smooth(WaterSection &section, const Bank &bank, const std::vector<unsigned int> &stairs,
                 const std::vector<bool> &is_corner)
     {
-      constexpr unsigned int              sweeps = 60, rings = 2;
+      constexpr unsigned int              sweeps = 120, rings = 2;
       std::vector<std::set<unsigned int>> neighbours(section.points.size());
       for (const auto &cell : section.cells)
         for (unsigned int k = 0; k < 4; ++k)
@@ -340,27 +340,31 @@ namespace Voussoir
         place.push_back(bank.nearest(section.points[node]).first);
         moving.erase(node);
       }
-      const auto mean = [&](const unsigned int node)
+      std::vector<Point2> before; // of this sweep: the mesh of a symmetric section is symmetric
+      const auto          relaxed = [&](const unsigned int node)
       {
         Point2 sum{};
         for (const unsigned int other : neighbours[node])
-          sum[0] += section.points[other][0], sum[1] += section.points[other][1];
-        return Point2{sum[0] / neighbours[node].size(), sum[1] / neighbours[node].size()};
+          sum[0] += before[other][0], sum[1] += before[other][1];
+        return between(before[node], {sum[0] / neighbours[node].size(), sum[1] / neighbours[node].size()},
+                       .5);
       };
       for (unsigned int sweep = 0; sweep < sweeps; ++sweep)
       {
+        before = section.points;
+        const std::vector<double> last = place;
         for (const unsigned int node : moving)
         {
-          const Point2 target = mean(node);
-          section.points[node] = {target[0], section.at_surface[node] ? section.points[node][1] : target[1]};
+          const Point2 target = relaxed(node);
+          section.points[node] = {target[0], section.at_surface[node] ? before[node][1] : target[1]};
         }
         for (std::size_t k = 1; k + 1 < section.bank.size(); ++k)
         {
           if (is_corner[k])
             continue;
-          const double room = .2 * (place[k + 1] - place[k - 1]);
-          place[k] =
-              std::clamp(bank.nearest(mean(section.bank[k])).first, place[k - 1] + room, place[k + 1] - room);
+          const double room = .2 * (last[k + 1] - last[k - 1]);
+          place[k] = std::clamp(bank.nearest(relaxed(section.bank[k])).first, last[k - 1] + room,
+                                last[k + 1] - room);
           section.points[section.bank[k]] = bank.at(place[k]);
         }
       }
@@ -414,10 +418,14 @@ namespace Voussoir
   WaterSection::WaterSection(const std::vector<WetQuad> &faces, const double level, const double h)
   {
     check_folds(faces);
-    const Bank curve(bank_of(outline(faces), level));
-    double     middle = .5 * (curve.points.front()[0] + curve.points.back()[0]);
-    Squares    squares = squares_in(curve, level, middle, h);
-    if (const Squares other = squares_in(curve, level, middle + .5 * h, h); other.size() > squares.size())
+    const Bank   curve(bank_of(outline(faces), level));
+    const double centre = .5 * (curve.points.front()[0] + curve.points.back()[0]), aside = 1e-4 * h;
+    double       middle = centre;
+    const auto   side = [&](const double by) { return on_face(faces, {centre + by, level - .5 * h}).second; };
+    const bool   at_joint = side(-aside) != side(aside); // a node there would belong to one side only
+    Squares      squares = squares_in(curve, level, middle, h);
+    if (const Squares other = squares_in(curve, level, middle + .5 * h, h);
+        other.size() > (at_joint ? 0 : squares.size()))
     {
       squares = other;
       middle += .5 * h;
@@ -458,9 +466,8 @@ namespace Voussoir
                      h);
     for (const Point2 &point : points)
     {
-      const auto [x, of] = on_face(faces, point);
-      face_x.push_back(x);
-      monolith.push_back(of);
+      face_x.push_back(on_face(faces, point).first);
+      monolith.push_back(on_face(faces, {point[0] + (point[0] < centre ? aside : -aside), point[1]}).second);
     }
   }
 } // namespace Voussoir

@@ -66,6 +66,9 @@ namespace Voussoir
      * @param force receives three values per pair [N] */
     void guess_bonded(const Unknowns &b, Unknowns &force);
 
+    /** Changes ContactParameters::tolerance for the next solutions. */
+    void set_tolerance(const double value) { parameters.tolerance = value; }
+
     /** Returns the contact state of each pair in the last solution; before the first one, all are open. */
     const std::vector<PairState> &states() const { return state; }
     /** Returns the active surfaces of each pair in the last solution, see PairEquations::active; before the
@@ -118,7 +121,7 @@ namespace Voussoir
 
     const ContactOperator              &W;
     const std::vector<const JointLaw *> law;
-    const ContactParameters             parameters;
+    ContactParameters                   parameters;
     std::unique_ptr<ContactJacobian>    jacobian;
     std::vector<double>                 rho;            ///< scaling of the equations of each pair [N/m]
     double                              mean_rho;       ///< 1/w, scaling of the error [N/m]

@@ -93,6 +93,9 @@ namespace Voussoir
       laws.commit(start, step.has_mean_forces(), force, gap, memory);
     }
 
+    /** Changes ContactParameters::tolerance for the next solutions. */
+    void set_tolerance(const double tolerance) { solver->set_tolerance(tolerance); }
+
     /** Solves A u = load without forces of joints and support. The results of solve() are unchanged.
      * @param load nodal loads, three values per node [N]
      * @param u receives the displacements, three values per node [m] */

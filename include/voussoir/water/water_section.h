@@ -37,7 +37,8 @@ namespace Voussoir
     std::vector<unsigned int>                bank;   ///< chain of nodes from the right end of the water line
     std::vector<bool>                        at_surface; ///< per node: on the water line
     std::vector<double>                      face_x;     ///< per node: x of the wet face [m]
-    std::vector<int>                         monolith;   ///< per node: monolith of the wet face
+    std::vector<int>
+        monolith; ///< per node: monolith of the wet face; on a joint the one nearer to the middle of the water line
 
     /** @param faces upstream face of the dam, above and below the water level
      * @param level water level [m]
