@@ -156,23 +156,6 @@ namespace Voussoir
                *std::max_element(curve.y.begin(), curve.y.end())}};
     }
 
-    NamedValues of_wedges(const Scene &scene, const std::string &column, double RockWedge::*number)
-    {
-      NamedValues values;
-      for (const RockWedge &wedge : rock_wedges(scene))
-        values.emplace_back(column + " of wedge " + wedge.name, wedge.*number);
-      return values;
-    }
-
-    NamedValues of_planes(const Scene &scene, const std::string &column, double WedgePlane::*number)
-    {
-      NamedValues values;
-      for (const RockWedge &wedge : rock_wedges(scene))
-        for (const WedgePlane &plane : wedge.planes)
-          values.emplace_back(column + " of plane " + plane.name + " of wedge " + wedge.name, plane.*number);
-      return values;
-    }
-
     /** Usual ranges of numbers in lists and tables. */
     struct ListedNumbers
     {
@@ -187,37 +170,33 @@ namespace Voussoir
         {"Statics/Stages", "Pa", {1e4, 5e6, true}, pressures_of_grout},
         {"Loads/Crest line", "N/m", {1e3, 5e6, true}, crest_line},
         {"Loads/Concentrated", "N", {1e3, 1e9, true}, concentrated_forces},
-        {"Reservoir/Table", "kg/m^2", {1e3, 1e6}, largest_added_mass, true},
-        {"Limits/Wedges",
-         "kg/m^3",
-         {2000., 3500.},
-         [](const Scene &s) { return of_wedges(s, "density", &RockWedge::density); },
-         true},
-        {"Limits/Wedges",
-         "m^3",
-         {10., 1e8},
-         [](const Scene &s) { return of_wedges(s, "volume", &RockWedge::volume); },
-         true},
-        {"Limits/Wedges",
-         "m^2",
-         {1., 1e6},
-         [](const Scene &s) { return of_planes(s, "area", &WedgePlane::area); },
-         true},
-        {"Limits/Wedges",
-         "-",
-         {.2, 3.},
-         [](const Scene &s) { return of_planes(s, "friction", &WedgePlane::friction); },
-         true},
-        {"Limits/Wedges",
-         "Pa",
-         {1e3, 1e7, true},
-         [](const Scene &s) { return of_planes(s, "cohesion", &WedgePlane::cohesion); },
-         true},
-        {"Limits/Wedges",
-         "Pa",
-         {1e3, 1e7, true},
-         [](const Scene &s) { return of_planes(s, "uplift", &WedgePlane::uplift); },
-         true}};
+        {"Reservoir/Table", "kg/m^2", {1e3, 1e6}, largest_added_mass, true}};
+
+    /** Usual range of a number of each part of the rock wedges. */
+    template <class T> struct WedgeColumn
+    {
+      const char *name, *unit;
+      UsualRange  range;
+      double T::*number;
+    };
+    const std::vector<WedgeColumn<RockWedge>> wedge_columns = {
+        {"density", "kg/m^3", {2000., 3500.}, &RockWedge::density},
+        {"volume", "m^3", {10., 1e8}, &RockWedge::volume}};
+    const std::vector<WedgeColumn<WedgePlane>> plane_columns = {
+        {"area", "m^2", {1., 1e6}, &WedgePlane::area},
+        {"friction", "-", {.2, 3.}, &WedgePlane::friction},
+        {"cohesion", "Pa", {1e3, 1e7, true}, &WedgePlane::cohesion},
+        {"uplift", "Pa", {1e3, 1e7, true}, &WedgePlane::uplift}};
+
+    template <class T>
+    void add_columns(const std::vector<WedgeColumn<T>> &columns, const T &part, const std::string &name,
+                     std::vector<UsedValue> &values)
+    {
+      const std::string entry = "Limits/Wedges";
+      for (const WedgeColumn<T> &column : columns)
+        values.push_back({entry + ": " + column.name + " of " + name, entry, column.unit, part.*column.number,
+                          entry, &column.range, true});
+    }
   } // namespace
 
   std::vector<UsedValue> values_of_sources(const Scene &scene)
@@ -241,8 +220,14 @@ namespace Voussoir
     {
       if (!scene.loads.temperature.table.empty() && scene.loads.factor("temperature") != 0.)
         add_table(scene, values);
+      for (const RockWedge &wedge : rock_wedges(scene))
+      {
+        add_columns(wedge_columns, wedge, "wedge " + wedge.name, values);
+        for (const WedgePlane &plane : wedge.planes)
+          add_columns(plane_columns, plane, "plane " + plane.name + " of wedge " + wedge.name, values);
+      }
     }
-    catch (const InputError &) // reported where the load is computed
+    catch (const InputError &) // reported where the numbers are used
     {
     }
     return values;
