@@ -57,7 +57,7 @@ namespace Voussoir
             "constant");
     }
 
-    /** Prints where the probes are. */
+    /** Prints where the probes are. Throws InputError, see probe_place(). */
     void report_probes(const Dam &dam, Log &log)
     {
       for (const auto &[name, given] : dam.scene.output.probe_places())

@@ -253,8 +253,6 @@ namespace Voussoir
     tie_base();
     add_loads();
     foundation->add_mass(structure);
-    for (const auto &probe : scene.output.probe_places())
-      probe_place(*model, probe.first, probe.second); // throws InputError
     if (!has_open_bases && scene.loads.uplift.joints && scene.loads.uplift.below_closed_part != "none")
       mesh_warnings.push_back(
           "Entry \"Loads/Uplift/Below closed part\" has no effect: the dam has no base joint that can "
