@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/memory_need.h>
 #include <voussoir/app/modes_command.h>
 #include <voussoir/app/modes_damping.h>
 #include <voussoir/app/spectrum_analysis.h>
@@ -179,6 +180,8 @@ namespace Voussoir
       spectrum = choose_spectrum(scene, spectrum_choice);
     if (!directory.empty())
       make_directory(directory);
+    Log quiet(true);
+    check_water_size(scene, 0., quiet);
     const Dam dam(scene, true);
     for (const std::string &warning : dam.mesh_warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";

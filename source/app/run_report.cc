@@ -2,6 +2,7 @@
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/run_report.h>
 #include <voussoir/base/python_script.h>
+#include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/motion/motion.h>
@@ -54,6 +55,18 @@ namespace Voussoir
         log.line(
             "          inertia by the mean acceleration of the base nodes on each wedge; weight and uplift are "
             "constant");
+    }
+
+    /** Prints where the probes are. Throws InputError, see probe_place(). */
+    void report_probes(const Dam &dam, Log &log)
+    {
+      for (const auto &[name, given] : dam.scene.output.probe_places())
+      {
+        const PlaceInDam probe = probe_place(*dam.model, name, given);
+        log.line("Probe     %s at %s in %s, %.2g m from the given point", name.c_str(),
+                 place(probe.point).c_str(), physical_name(3, probe.block).c_str(),
+                 distance_between(probe.point, given));
+      }
     }
 
     /** Prints the peak values of the motion, and a warning for each entry that may be an oversight. */
@@ -193,6 +206,7 @@ namespace Voussoir
                scene.reservoir.model.c_str());
     report_loads(dam, log);
     report_wedges(dam, log);
+    report_probes(dam, log);
     report_motion_and_warnings(run, log);
     report_motion_notes(run, log);
     if (validate)

@@ -253,8 +253,6 @@ namespace Voussoir
     tie_base();
     add_loads();
     foundation->add_mass(structure);
-    for (const auto &probe : scene.output.probe_places())
-      probe_node(*model, probe.first, {probe.second[0], probe.second[1], probe.second[2]});
     if (!has_open_bases && scene.loads.uplift.joints && scene.loads.uplift.below_closed_part != "none")
       mesh_warnings.push_back(
           "Entry \"Loads/Uplift/Below closed part\" has no effect: the dam has no base joint that can "
@@ -554,7 +552,11 @@ namespace Voussoir
     if (has_base_joints() && scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
       loads.push_back({uplift_load, true, scene.loads.factor("uplift"), uplift_at_base(), {}});
     if (scene.reservoir.density > 0. && scene.loads.factor("water") != 0.)
+    {
       added_mass = add_added_mass(*model, scene.reservoir, structure);
+      if (const std::string warning = added_mass_warning(*model, scene.reservoir); !warning.empty())
+        mesh_warnings.push_back(warning);
+    }
     if (const ReservoirParameters &r = scene.reservoir; r.is_meshed() && scene.loads.factor("water") != 0.)
     {
       water = std::make_unique<AcousticWater>(

@@ -126,6 +126,7 @@ namespace Voussoir
                                               (scene.concrete.density * dam.size * dam.size));
         state.force.assign(3 * dam.structure.pairs.size(), 0.);
         state.closed = gap = state.force;
+        state.removed.assign(dam.structure.pairs.size(), 0.);
         state.u.assign(3 * dam.structure.n_nodes(), 0.);
         state.memory = dam.laws.initial_memory();
         state.contact.converged = true;
@@ -266,6 +267,7 @@ namespace Voussoir
         if (width == 0. || dam.is_tied(p))
           return;
         state.closed[3 * p] -= width;
+        state.removed[p] += width;
         gap[3 * p] += width;
         dam.laws.lose_bond(p, state.memory);
       }

@@ -34,8 +34,16 @@ namespace Voussoir
   {
     flush();
     joints.maxima().write(directory + "/joints.csv");
-    if (!run.dam->structure.pairs.empty())
-      joints.points.write(directory, *run.dam->geometry);
+    std::vector<Vector3> at_start;
+    for (const Pair &pair : run.dam->structure.pairs)
+    {
+      const std::size_t p = at_start.size();
+      const double      jump = run.dam->structure.jump(pair, run.statics.u)[0];
+      at_start.push_back({{run.statics.force[3 * p] / pair.area, jump - run.statics.closed[3 * p],
+                           jump + run.statics.removed[p]}});
+    }
+    if (!at_start.empty())
+      joints.points.write(directory, *run.dam->geometry, at_start);
     joints.pressures().write(directory + "/joint_pressures.csv");
   }
 
