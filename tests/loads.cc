@@ -785,8 +785,8 @@ namespace
     scene.loads.combinations["flood"] = "weight 2, water 1.5";
     scene.loads.combination = "flood";
     Dam dam(scene);
-    expect_close(dam.self_weight_crown[2], -2. * 2400. * 10. * tall * tall / (2. * scene.concrete.young),
-                 1e-9, "crest under twice its weight");
+    expect_close(dam.staged.crown[2], -2. * 2400. * 10. * tall * tall / (2. * scene.concrete.young), 1e-9,
+                 "crest under twice its weight");
     const StaticPath path(dam);
     expect(path.n_parts() == 3 && !path.depends_on_increments(), "stages");
     const double levels[] = {0., 10., 24., 30.};

@@ -62,7 +62,7 @@ namespace Voussoir
     TableColumns &table = energy_columns;
     const auto    now = [this]() -> const Energy    &{ return run.integrator->state().energy; };
     const auto    first = [this]() -> const Energy    &{ return run.integrator->initial_energy(); };
-    const auto   &laws = run.dam->laws;
+    const auto   &laws = run.dam->layout.laws;
     table.add("time", [this] { return run.integrator->state().time; });
     table.add("kinetic", [=] { return now().kinetic; });
     table.add("strain", [=] { return now().strain - first().strain; });
