@@ -6,6 +6,7 @@
 """
 
 import csv
+import io
 import json
 import os
 import re
@@ -85,9 +86,12 @@ def voussoir(*arguments, environment=None):
 
 def runs(*arguments, environment=None):
     """The run must succeed, with warnings at most; its standard output."""
-    result = voussoir(*arguments, environment=environment)
+    return succeeds(voussoir(*arguments, environment=environment))
+
+
+def succeeds(result):
     expect(result.returncode == 0 and all(line.startswith("voussoir: warning: ") for line in result.stderr.splitlines()),
-           f"status {result.returncode} of {arguments}: {result.stdout[-2000:]}{result.stderr}")
+           f"status {result.returncode} of {result.args}: {result.stdout[-2000:]}{result.stderr}")
     return result.stdout
 
 
@@ -101,9 +105,31 @@ def interrupted(scene, output, *arguments):
     process.wait()
 
 
-def refused(arguments, *parts):
+def report(*words):
+    """`voussoir report` in this process, with empty images: to draw them takes 6 of 8 s."""
+    sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+    from unittest import mock
+    from voussoir import report as page, report_figures, report_view3d
+    from voussoir.command import end_with
+    image = lambda figure, kind="svg": report_figures.plt.close(figure) or "data:,"
+    streams = io.StringIO(), io.StringIO()
+    with mock.patch.object(report_figures, "image", image), mock.patch.object(report_view3d, "image", image), \
+            mock.patch.object(sys, "argv", ["report", *words]), mock.patch.object(sys, "stdout", streams[0]), mock.patch.object(sys, "stderr", streams[1]):
+        try:
+            end_with(page.main)
+        except SystemExit as end:
+            status = end.code
+    return subprocess.CompletedProcess(["report", *words], status, *(stream.getvalue() for stream in streams))
+
+
+def reports(*words):
+    """A report must be written, with warnings at most."""
+    succeeds(report(*words))
+
+
+def refused(arguments, *parts, run=None):
     """The run must end with status 2 and a message that has all these parts."""
-    result = voussoir(*arguments)
+    result = (run or voussoir)(*arguments)
     what = f"{arguments}: status {result.returncode}, message: {result.stderr.strip()}"
     expect(result.returncode == 2, what)
     message = "".join(line + "\n" for line in result.stderr.splitlines() if not line.startswith("voussoir: warning: "))
