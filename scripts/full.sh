@@ -19,7 +19,7 @@ systems() { scripts/try_release.sh trixie; }
 combinations()
 {
   scripts/build.sh
-  python3 tests/combinations build/voussoir --server build/tests/test_fuzz_server --output build/combinations
+  VOUSSOIR_START_SERVER=$PWD/build/tests/libstart_server.so python3 tests/combinations build/voussoir --output build/combinations
 }
 
 # Those whose exit status says whether the physics came out, on one thread. calculix.py and peers.py skip (77) without their data.

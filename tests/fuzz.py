@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Damaged input files: whatever is in a file, the program must end with a result or with a message.
 
-    fuzz.py VOUSSOIR [--count 200] [--seed 1] [--only N] [--server FILE] [--jobs 2] [--time-out 20] [KIND...]
+    fuzz.py VOUSSOIR [--count 200] [--seed 1] [--only N] [--jobs 2] [--time-out 20] [KIND...]
 
 Kinds: prm, msh (2.2 and 4.1, ascii and binary), motion (columns, AT2), fclib, checkpoint; all by default. Each case is a
 sound file with one to five seeded mutations. What fails: a signal, a run that does not end, status 2 without
@@ -10,7 +10,7 @@ sound file with one to five seeded mutations. What fails: a signal, a run that d
 code, a motion that is not finite, a resumed run with other results, an FCLib file that keeps a sound one after it from
 being solved. Files of failed cases are kept in fuzz/KIND/failed/N below the working directory, with the command.
 --only N repeats one case. --time-out: CPU seconds of a case, and six times that by the clock on the wall.
---server: the test program fuzz_server, which saves the start of the program (most of the time).
+The environment variable VOUSSOIR_START_SERVER names the library of start_server.cc, which saves the start of the program (most of the time).
 """
 
 import argparse
@@ -30,6 +30,8 @@ import sys
 import threading
 import time
 from pathlib import Path
+
+from run_program import Server
 
 HERE = Path(__file__).resolve().parent
 
@@ -226,31 +228,15 @@ class Direct:
     def __init__(self, program):
         self.program = program
 
-    def run(self, directory, seconds, words):
-        with open(directory / "out", "wb") as out, open(directory / "err", "wb") as err:
-            def limit():
-                limit_memory()
-                resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
-            try:
-                return subprocess.run([self.program, *words], cwd=directory, stdin=subprocess.DEVNULL, stdout=out,
-                                      stderr=err, timeout=6 * seconds, preexec_fn=limit).returncode
-            except subprocess.TimeoutExpired:
-                return -signal.SIGALRM
-
-
-class Server:
-    """Many runs of one start."""
-
-    def __init__(self, program):
-        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1,
-                                        preexec_fn=limit_memory)
-
-    def run(self, directory, seconds, words):
-        print(directory, seconds, *words, sep="\t", file=self.process.stdin, flush=True)
-        answer = self.process.stdout.readline().split()
-        if len(answer) != 2:
-            sys.exit("FAILED: the server ended")
-        return int(answer[1]) if answer[0] == "exit" else -int(answer[1])
+    def run(self, words, seconds, directory):
+        def limit():
+            limit_memory()
+            resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds))
+        try:
+            return subprocess.run([self.program, *words], cwd=directory, stdin=subprocess.DEVNULL, capture_output=True, text=True, errors="replace",
+                                  timeout=6 * seconds, preexec_fn=limit)
+        except subprocess.TimeoutExpired:
+            return subprocess.CompletedProcess(words, -signal.SIGALRM, "", "")
 
 
 def limit_memory():
@@ -475,8 +461,8 @@ class Campaign:
         shutil.rmtree(directory, ignore_errors=True)
         directory.mkdir()
         words = self.kind.case(random.Random(f"{self.options.seed} {self.kind.name} {number}"), directory)
-        status = runner.run(directory, self.options.time_out, words)
-        out, err = ((directory / name).read_text(errors="replace") for name in ("out", "err"))
+        result = runner.run(words, self.options.time_out, directory)
+        status, out, err = result.returncode, result.stdout, result.stderr
         problem = complaint(status, out, err) or self.kind.check(directory, status, out)
         if status in TIME_IS_OVER and self.kind.may_take_long(directory):
             problem = ""
@@ -492,7 +478,7 @@ class Campaign:
                       f"{shlex.join([self.kind.program, *words])}", flush=True)
 
     def work(self, index):
-        runner = Server(self.options.server) if self.options.server else Direct(self.kind.program)
+        runner = Server(self.kind.program, preexec_fn=limit_memory) if os.path.isfile(Server.library) else Direct(self.kind.program)
         try:
             while True:
                 self.one(self.numbers.get_nowait(), runner, self.kind.root / f"case_{index}")
@@ -519,7 +505,6 @@ def main():
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", type=int)
-    parser.add_argument("--server", type=lambda name: str(Path(name).resolve()))
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--time-out", type=int, default=20)
     options = parser.parse_intermixed_args()

@@ -342,7 +342,7 @@ def rock_edges():
 
 
 ARCH = settings("Mesh/Source=arch210", "Mesh/Arch210/Joints=3", "Mesh/Arch210/Elements along=16", "Mesh/Arch210/Elements up=6",
-                "Mesh/Arch210/Elements through=2", "Mesh/File=", "Reservoir/Water level=190", "Motion/Duration=1.5",
+                "Mesh/Arch210/Elements through=2", "Mesh/File=", "Reservoir/Water level=190", "Motion/Duration=0.6",
                 "Output/Envelope interval=0", "Dynamics/Factors=double")  # double: tests of round-off
 BASE = settings("Mesh/Arch210/Base joint=true")
 
@@ -442,7 +442,7 @@ def resume():
     write_scene()
     for base, given in (("rigid", ("Joints/Normal stiffness=1e11", "Joints/Adhesion=1 MPa")),
                         ("massless", ("Foundation/Model=massless", "Mesh/Arch210/Lift joints=1"))):
-        more = [*ARCH, *BASE, *settings(*given, "Output/Checkpoint interval=20", "Output/Progress interval=10")]
+        more = [*ARCH, *BASE, *settings(*given, "Motion/Duration=1.5", "Output/Checkpoint interval=20", "Output/Progress interval=10")]
         shown = runs("scene.prm", "--output", f"whole_{base}", *more)
         expect("4 base joints" in shown, shown[:800])
         expect(summary(f"whole_{base}")["energy_balance_error"] < 1e-9, f"energy balance of {base}")

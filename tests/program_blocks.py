@@ -20,7 +20,7 @@ import scenes  # noqa: E402
 from compare import GRAVITY, scene  # noqa: E402
 from program_physics import close, settings  # noqa: E402
 import run_program  # noqa: E402
-from run_program import expect, run_cases, runs, same, summary, table, write, write_scene  # noqa: E402
+from run_program import expect, reports, run_cases, runs, same, summary, table, write, write_scene  # noqa: E402
 
 COLUMNS = ("N", "V_stream", "V_arch", "M_stream", "M_arch", "torsion")
 H, S, T = 40., .25, .5  # of the wedge: height of its crest above the heel's middle, falls of its base downstream and across
@@ -219,7 +219,7 @@ def limits():
     verdict = found["limits"]["sliding_safety"]
     least = min(found["blocks"][f"monolith {m}"]["min_sliding_safety"]["value"] for m in (1, 2, 3))
     expect(not verdict["satisfied"] and verdict["is_least"] and verdict["value"] == least, f"{verdict}")
-    runs("report", "judged")
+    reports("judged")
     page = Path("judged/report.html").read_text()
     for words in ("Monoliths on their bases", "against sliding", f"{least:.2f}", "(required 40)", "exceeded"):
         expect(words in page, f"'{words}' is not in the report")

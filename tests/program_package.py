@@ -186,9 +186,24 @@ def blocks(page):
     return found
 
 
-def shortened(text, options):
-    """The commands of a block with the options that make them small, before a redirection."""
-    return "\n".join(re.sub(r"^(voussoir [^>]*)", lambda m: f"{m[1]} {options}", line) if options else line for line in text.splitlines())
+ARCS = r"--set Mesh/Arcs/Elements\ along=16 --set Mesh/Arcs/Elements\ up=3 --set Mesh/Arcs/Elements\ through=1 --set Motion/Duration=0.24"
+ROCK = r"--set Mesh/Arcs/Rock/Element\ size=60"
+SMALLER = {"2_own_dam": f"{ARCS} {ROCK}", "7_report": rf"{ARCS} {ROCK} --set Mesh/Arcs/Elements\ along=24"}  # of commands with a scene, after those of the page
+
+
+def shortened(text, page, options, drawn):
+    """The commands of a block with the options that make them small, before a redirection. Runs after the first are without figures. drawn: the
+    runs with figures so far."""
+    lines = []
+    for line in text.splitlines():
+        more = options
+        if re.match(r"voussoir (\w+ )?\w+\.prm", line) and "Source=none" not in line:
+            more += " " + SMALLER.get(page, "")
+        if re.match(r"voussoir \w+\.prm.* --output", line):
+            more += " --set Output/Figures=false" if drawn and page != "1_first_run" else ""
+            drawn.append(line)
+        lines.append(re.sub(r"^(voussoir [^>]*)", lambda m: f"{m[1]} {more}", line))
+    return "\n".join(lines)
 
 
 def tutorial(name):
@@ -202,7 +217,7 @@ def tutorial(name):
     Path("bin").mkdir()
     Path("bin/python3").symlink_to(sys.executable)
     environment = {**os.environ, "PATH": f"{Path('bin').absolute()}:{Path(VOUSSOIR).parent}:{os.environ['PATH']}"}
-    n = 0
+    n, drawn, taken = 0, [], set()
     for remarks, text in blocks(ROOT / "doc" / "tutorials" / f"{name}.md"):
         if "not run" in remarks:
             continue
@@ -211,23 +226,28 @@ def tutorial(name):
             continue
         expect(remarks["language"] == "sh", f"a block of {name} is neither a file nor commands: {text}")
         options = remarks.get("small", "").replace("|", r"\|")
-        result = subprocess.run(["bash", "-euo", "pipefail", "-c", shortened(text, options)], capture_output=True, text=True, env=environment)
+        result = subprocess.run(["bash", "-euo", "pipefail", "-c", shortened(text, name, options, drawn)], capture_output=True, text=True, env=environment)
         expect(result.returncode == 0, f"{text}{result.stdout[-2000:]}{result.stderr}")
         print("    " + text.strip().replace("\n", "\n    "))
-        if "small" in remarks:
-            would_run(text, environment)
+        if "small" in remarks or name in SMALLER:
+            would_run(text, environment, taken)
         n += 1
     expect(n > 0, f"{name} has no commands")
 
 
-def would_run(text, environment):
-    """The commands as the page has them, at full size: the program takes each scene. `voussoir needs` would run it."""
+def would_run(text, environment, taken):
+    """The commands as the page has them, at full size but for massless rock: the program takes each scene. `voussoir needs` would run it.
+    taken: the scenes so far."""
     for line in text.strip().splitlines():
-        if line.startswith("voussoir needs "):
+        scene = re.sub(r" --(output \S+|validate)", "", line)
+        if scene in taken or not re.match(r"voussoir (study |motion )?\w+\.prm", line):
             continue
+        taken.add(scene)
         check = "--dry-run" if line.startswith("voussoir study ") else "--validate"
         if line.startswith("voussoir motion ") or check in line:
             check = ""
+        if "massless" in line or " water.prm" in line:
+            check += " " + ROCK
         result = subprocess.run(["bash", "-c", f"{line} {check}"], capture_output=True, text=True, env=environment)
         expect(result.returncode == 0, f"{line} {check}: {result.stdout[-2000:]}{result.stderr}")
 

@@ -18,7 +18,7 @@ import run_program
 from program_watch import settings
 from run_program import expect, run_cases, runs, write, write_scene
 
-ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1"}
+os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1")
 SHORT = settings("Motion/Duration=0.3", "Output/Solution interval=10")
 ROCK = settings("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                 "Dynamics/Steps per sample=5", "Motion/Duration=0.3", "Output/Envelope interval=0")
@@ -36,8 +36,7 @@ def launcher(n):
 
 def on_ranks(n, *arguments):
     """Status, standard output, standard error."""
-    result = subprocess.run([*launcher(n), *arguments], capture_output=True, text=True, timeout=240,
-                            env={**os.environ, **ROOT})
+    result = subprocess.run([*launcher(n), *arguments], capture_output=True, text=True, timeout=240)
     return result.returncode, result.stdout, result.stderr
 
 
@@ -68,7 +67,7 @@ def same_bits(a, b):
 
 def any_number(name, ranks, *arguments):
     """The scene on one rank and on several."""
-    runs("scene.prm", "--output", f"{name}.1", *arguments, environment={"OMP_NUM_THREADS": "1"})
+    runs("scene.prm", "--output", f"{name}.1", *arguments)
     for n in ranks:
         status, out, error = on_ranks(n, "scene.prm", "--output", f"{name}.{n}", *arguments)
         expect(status == 0, f"{name} on {n} ranks: status {status}: {out[-1000:]}{error[-2000:]}")
@@ -139,8 +138,7 @@ def rock():
 
 def killed(n, directory, *arguments):
     """A run on n ranks that is killed once it has a checkpoint."""
-    process = subprocess.Popen([*launcher(n), "scene.prm", "--output", directory, *arguments], env={**os.environ, **ROOT},
-                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen([*launcher(n), "scene.prm", "--output", directory, *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     while process.poll() is None and not Path(directory, "checkpoint.txt").exists():
         time.sleep(.002)
     children = subprocess.run(["pgrep", "-P", str(process.pid)], capture_output=True, text=True).stdout.split()
@@ -156,7 +154,7 @@ def killed_and_continued(*arguments):
     killed(2, "killed", *arguments)
     status, _, error = on_ranks(3, "scene.prm", "--output", "killed", "--resume", *arguments)
     expect(status == 0, error)
-    runs("scene.prm", "--output", "whole", *arguments, environment={"OMP_NUM_THREADS": "1"})
+    runs("scene.prm", "--output", "whole", *arguments)
     same_bits("killed", "whole")
 
 
@@ -168,11 +166,11 @@ def checkpoint():
                             ("own", [*ROCK, *OWN, *settings("Output/Checkpoint interval=20", "Motion/Duration=2")])):
         killed(3, name, *arguments)
         shutil.copytree(name, f"{name}_1")
-        runs("scene.prm", "--output", f"{name}_1", "--resume", *arguments, environment={"OMP_NUM_THREADS": "1"})
+        runs("scene.prm", "--output", f"{name}_1", "--resume", *arguments)
         status, _, error = on_ranks(2, "scene.prm", "--output", name, "--resume", *arguments)
         expect(status == 0, error)
         same_bits(name, f"{name}_1")
-        runs("scene.prm", "--output", f"{name}_whole", *arguments, environment={"OMP_NUM_THREADS": "1"})
+        runs("scene.prm", "--output", f"{name}_whole", *arguments)
         same_bits(name, f"{name}_whole")
 
 
@@ -209,8 +207,8 @@ def last_write():
         status, _, error = on_ranks(n, "scene.prm", "--output", directory, "--overwrite", *ROCK)
         expect(status == 1 and "summary.json" in error and "is kept" in error, f"status {status}: {error}")
         Path(directory, "summary.json").rmdir()
-        runs("scene.prm", "--output", directory, "--resume", *ROCK, environment={"OMP_NUM_THREADS": "1"})
-    runs("scene.prm", "--output", "whole", *ROCK, environment={"OMP_NUM_THREADS": "1"})
+        runs("scene.prm", "--output", directory, "--resume", *ROCK)
+    runs("scene.prm", "--output", "whole", *ROCK)
     same_bits("end_1", "whole")
     same_bits("end_2", "whole")
 
@@ -219,8 +217,7 @@ def stopped():
     """A signal to one of the ranks: all keep the state and stop."""
     write_scene()
     arguments = settings("Motion/Duration=3", "Output/Checkpoint interval=1000")
-    process = subprocess.Popen([*launcher(2), "scene.prm", "--output", "out", *arguments], env={**os.environ, **ROOT},
-                               stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+    process = subprocess.Popen([*launcher(2), "scene.prm", "--output", "out", *arguments], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     while process.poll() is None and (not Path("out/history.csv").exists() or
                                       len(Path("out/history.csv").read_text().splitlines()) < 10):
         time.sleep(.002)
@@ -254,7 +251,7 @@ def errors():
     # Ranks with different scenes are none of one run; an error of one rank alone ends the others, who wait for it.
     def apart(first, second):
         return subprocess.run([*launcher(1), *first, ":", "-np", "1", run_program.VOUSSOIR, *second], capture_output=True, text=True,
-                              timeout=120, env={**os.environ, **ROOT})
+                              timeout=120)
 
     scene = ["scene.prm", "--output", "mixed"]
     result = apart(scene, [*scene, *settings("Motion/Factor=2")])

@@ -20,7 +20,7 @@ from unittest import mock
 
 from browser import Browser, find_browser
 from program_physics import Solution, close, read_vtu
-from run_program import arch_mesh, expect, from_file, refused, run_cases, runs, summary, voussoir, write_mesh, write_scene
+from run_program import arch_mesh, expect, from_file, refused, report, reports, run_cases, runs, summary, voussoir, write_mesh, write_scene
 
 LIMITS = """
 subsection Limits
@@ -93,12 +93,12 @@ def page():
         expect(words in read.text, f"'{words}' is not on the page")
     n_exceeded = sum(not limit["satisfied"] for limit in found["limits"].values())
     expect(f"{n_exceeded} of {len(found['limits'])} limits" in read.text, "the verdict does not count as the summary does")
-    runs("report", "limited", "plain", "tied", "--output", "three.html")
+    reports("limited", "plain", "tied", "--output", "three.html")
     three = Reader("three.html")
     expect(len(three.images) > 1.5 * len(read.images), f"{len(three.images)} images of three runs")
     for words in ("the runs differ", "Joints/Friction", "tied"):
         expect(words in three.text, f"'{words}' is not on the page of three runs")
-    runs("report", "tied", "--output", "tied.html")
+    reports("tied", "--output", "tied.html")
     expect("Slip of a joint" not in Reader("tied.html").text, "the tied dam has slips")
 
 
@@ -107,7 +107,7 @@ def beside_static():
     write_scene("limited.prm", LIMITS)
     runs("limited.prm", "--output", "moving", "--overwrite")
     runs("limited.prm", "--output", "resting", "--overwrite", "--set", "Motion/Source=none")
-    runs("report", "moving", "resting", "--output", "pair.html")
+    reports("moving", "resting", "--output", "pair.html")
     read = Reader("pair.html")
     for words in ("Displacement of the crest", "Opening and slip at the crest over time", "Energies;"):
         expect(words in read.text, f"'{words}' is not on the page of a static state and an earthquake")
@@ -120,9 +120,9 @@ def beside_static():
     for strength in ("0.4 MPa", "0.3 MPa"):  # other levels may decide: no title may name that of one run for all
         runs("limited.prm", "--output", strength[:3], "--overwrite", "--set", f"Limits/Static tensile strength={strength}")
     levels = [2. - summary(d)["limits"]["overstress_duration"]["limit"] / .4 for d in ("0.4", "0.3")]
-    runs("report", "0.4", "0.3", "--output", "levels.html")
+    reports("0.4", "0.3", "--output", "levels.html")
     expect(("at the level that decides in each run" in Reader("levels.html").text) == (abs(levels[0] - levels[1]) > 1e-9), f"{levels}")
-    runs("report", "resting", "--output", "rest.html")
+    reports("resting", "--output", "rest.html")
     expect("None: the static state alone." in Reader("rest.html").text, "a static state alone")
 
 
@@ -217,7 +217,7 @@ def units():
                 known["/".join([*path, name])] = unit
     walk(json.loads(runs("parameters", "json")), [])
     expect(found == known and len(found) > 100, f"{set(found.items()) ^ set(known.items())}")
-    runs("report", "run")
+    reports("run")
     text = Path("run/report.html").read_text(encoding="utf-8")
     row = text[text.index("<td>Concrete/Young"):].partition("</tr>")[0]
     expect(">27 GPa<" in row and ">21 GPa<" in row, row)
@@ -229,10 +229,11 @@ def units():
     expect("compression at most [MN]" in head and "uplift [MN]" in head, head)
 
 
-def answered(*arguments):
+def answered(directory):
     """The answers of the first page of a run: {question: text}."""
-    runs("report", *arguments)
-    text = Path(arguments[0], "report.html").read_text(encoding="utf-8")
+    from voussoir.report_answers import answers as write
+    from voussoir.runs import Run
+    text = write(Run(directory))
     answers = text[text.index('<dl class="answers">'):].partition("</dl>")[0]
     return {part.partition("</dt>")[0]: part.partition("<dd>")[2].partition("</dd>")[0] for part in answers.split("<dt>")[1:]}
 
@@ -242,7 +243,9 @@ def answers():
     write_scene("scene.prm", LIMITS)
     runs("scene.prm", "--output", "run", *settings("Joints/Friction=0.3"))
     found, history = summary("run"), table("run/joint_history.csv")
-    said = answered("run", "--title", "Dam <1>", "--owner", "A & B", "--author", "C", "--date", "1 May 2030")
+    said = answered("run")
+    reports("run", "--title", "Dam <1>", "--owner", "A & B", "--author", "C", "--date", "1 May 2030")
+    expect(all(text in Path("run/report.html").read_text(encoding="utf-8") for text in said.values()), f"{said} are not on the page")
     read = Reader("run/report.html")
     for words in ("Dam <1>", "A & B", "Author", "1 May 2030", "--title 'Dam <1>' --owner 'A & B'"):
         expect(words in read.text, f"'{words}' is not on the page")
@@ -279,6 +282,7 @@ def answers():
     Path("run/summary.json").write_text(json.dumps({**found, "warnings": [{"class": "input", "text": "A/B has no effect.", "place": "a.prm, line 2"}]}))
     said = answered("run")["Are the results valid?"]
     expect("passes its checks" in said and "warnings of the program: none; remarks on the input file: 1" in said, said)
+    reports("run")
     expect("A/B has no effect." in Reader("run/report.html").text, "a remark on the input is not in the list")
 
 
@@ -308,7 +312,7 @@ def content():
     """What other commands and later files add: modes, error of mesh and time step, open dam, quality of the mesh, accelerations, arch stresses."""
     write_scene("scene.prm")
     runs("scene.prm", "--output", "run", *settings("Output/Solution interval=10", "Joints/Friction=0.3"))
-    runs("report", "run")
+    reports("run")
     bare = Reader("run/report.html")
     for words in ("voussoir modes scene.prm --output run/modes", "voussoir accuracy scene.prm --output run/accuracy"):
         expect(words in bare.text, f"'{words}' is not on the page")
@@ -324,7 +328,7 @@ def content():
     entries = of_scene("run")
     told = {"error": {"openings": .0123, "tension": .034}, "wish": .02, "error_bars": {}}
     Path("scene-accuracy/accuracy.json").write_text(json.dumps({**told, "entries": {**entries, "Joints/Friction": "0.6"}}))
-    runs("report", "run")
+    reports("run")
     expect("is of another scene (Joints/Friction = 0.6, here 0.3)" in Reader("run/report.html").text, "the error of another scene is on the page")
     Path("scene-accuracy/accuracy.json").write_text(json.dumps({**told, "entries": entries}))
     changes = dict.fromkeys(("opening", "slip", "tension_upstream", "tension_downstream", "base_shear", "sliding_safety", "crest"), .07)
@@ -332,7 +336,7 @@ def content():
     Path("scene-needs").mkdir()
     Path("scene-needs/needs.json").write_text(json.dumps({"rows": [row], "smallest": {"rows": []}, "target": ".05", "seconds": "5", "entries": {}}))
     added_columns("run")
-    runs("report", "run")
+    reports("run")
     full = Reader("run/report.html")
     frequency = [float(row["frequency"]) for row in table("run/modes/modes.csv")]
     expect("Natural modes" in full.text and all(f"{k + 1}: {f:.3g} Hz" in full.text for k, f in enumerate(frequency)), "the modes are not on the page")
@@ -345,7 +349,7 @@ def content():
     for name, said in (("run/modes/modes.csv", "is not of voussoir modes"), ("scene-accuracy/accuracy.json", "is not of this version of voussoir accuracy"),
                        ("scene-needs/needs.json", "is not of voussoir needs")):
         Path(name).write_text("mode,frequency\n1,x\n")
-        runs("report", "run")
+        reports("run")
         expect(said in Reader("run/report.html").text, f"damaged {name}")
 
 
@@ -371,28 +375,28 @@ def refusals():
     """What is no run, and what is no page."""
     Path("empty").mkdir(exist_ok=True)
     refused(["report", "empty"], "empty", "summary.json")
-    refused(["report", "nowhere"], "nowhere")
+    refused(["nowhere"], "nowhere", run=report)
     refused(["report"], "voussoir report output/")
     Path("broken").mkdir(exist_ok=True)
     Path("broken/summary.json").write_text("{")
-    refused(["report", "broken"], "not valid JSON")
+    refused(["broken"], "not valid JSON", run=report)
     for text in ("[]", '{"limits": 3}', '{"extremes": {"max_slip": {"value": "much"}}, "warnings": 7}'):
         Path("broken/summary.json").write_text(text)
-        refused(["report", "broken"], "Repeat the run")
+        refused(["broken"], "Repeat the run", run=report)
     write_scene()
     runs("scene.prm", "--output", "run", "--overwrite", "--set", "Output/Envelope interval=0")
-    refused(["report", "run", "--output", "page.txt"], "page.txt", ".html")
-    refused(["report", "run", "--output", "no/such/place.html"], "no/such/place.html")
+    refused(["run", "--output", "page.txt"], "page.txt", ".html", run=report)
+    refused(["run", "--output", "no/such/place.html"], "no/such/place.html", run=report)
     history = Path("run/history.csv").read_text().splitlines()
     for text, said in (("\n".join(history[:9] + [history[9][:12]] + history[10:]), "line 10 has"), ("\n".join(history[:5]) + "\n0.05,what" + ",0" * (len(history[0].split(",")) - 2), "what"),
                        ("\n".join(line.partition(",")[2] for line in history), "no column time")):
         Path("run/history.csv").write_text(text)
-        refused(["report", "run"], "run/history.csv is damaged", said, "Repeat the run")
+        refused(["run"], "run/history.csv is damaged", said, "Repeat the run", run=report)
     for text in (history[0][:30], history[0] + "\n" + history[1][:20], "", "\n".join(history)[:-7]):  # stopped while it wrote
         Path("run/history.csv").write_text(text)
-        runs("report", "run")
+        reports("run")
     Path("run/history.csv").write_text("\n".join(history))
-    runs("report", "run")  # without stresses
+    reports("run")  # without stresses
     expect("Not shown" in Reader("run/report.html").text, "what is missing is not said")
 
 
@@ -405,30 +409,30 @@ def received():
     links = [Path("run/report.html"), Path("run/figures/energy.png")]
     for link in links:
         link.symlink_to(Path("mine.txt").resolve())
-        refused(["report", "run"], str(link), "link out of the directory")
+        refused(["run"], str(link), "link out of the directory", run=report)
         link.unlink()
     Path("run/copy.txt").symlink_to("log.txt")  # a link within the directory
     links[0].symlink_to("../mine.txt")
-    from voussoir import figures, report
-    with mock.patch.object(report, "refuse_links"), mock.patch.object(sys, "argv", ["report", "run", "--title", "Dam <A>"]):
-        report.main()
+    from voussoir import figures, report as page
+    with mock.patch.object(page, "refuse_links"):
+        reports("run", "--title", "Dam <A>")
     expect(not links[0].is_symlink() and "<title>Dam &lt;A&gt;</title>" in links[0].read_text(encoding="utf-8"), "the page")
     links[1].symlink_to("../../mine.txt")
     with mock.patch.object(sys, "argv", ["figures", "run"]):
         expect(figures.main() == 0, "figures")
     expect(links[1].read_bytes()[1:4] == b"PNG" and not links[1].is_symlink() and Path("mine.txt").read_text() == "mine", "written through a link")
     os.mkfifo("run/pipe")
-    refused(["report", "run"], "run/pipe", "a pipe")
+    refused(["run"], "run/pipe", "a pipe", run=report)
     Path("run/pipe").unlink()
     Path("run/copy.txt").unlink()
     for name, target in (("run/log.txt", "/etc/hostname"), ("run/loop", "loop")):
         Path(name).unlink(missing_ok=True)
         Path(name).symlink_to(target)
-        refused(["report", "run"], name, "link out of the directory")
+        refused(["run"], name, "link out of the directory", run=report)
         Path(name).unlink()
     Path("scene-modes").mkdir()
     Path("scene-modes/modes.csv").symlink_to("../mine.txt")
-    runs("report", "run")
+    reports("run")
     expect("modes.csv is a link out of the directory" in Reader("run/report.html").text, "a link in a directory beside the run")
 
 
@@ -589,7 +593,7 @@ def unjudged():
     one_face()
     deep = runs("scene.prm", "--output", "deep", *settings("Limits/Waterstop depth=18", "Motion/Duration=0.1"))
     expect("is thinner than Limits/Waterstop depth (18 m)" in deep, f"waterstops that end below the crest: {deep}")
-    runs("report", "no_motion")
+    reports("no_motion")
     text = Reader("no_motion/report.html").text
     expect("Not evaluated: duration of overstress (the stresses are recorded at one time only)" in text, "the page does not say what is not evaluated")
 
@@ -598,7 +602,7 @@ def undecided():
     """A limit within the error bar is undecided; a bar on one side of it decides. The bars are in the table, or the command that makes them."""
     write_scene("scene.prm", "subsection Limits\nset Opening = 1\nset Tension = 1 MPa\nend\n")
     runs("scene.prm", "--output", "run")
-    runs("report", "run")
+    reports("run")
     expect("no error bar: run voussoir accuracy scene.prm" in Reader("run/report.html").text, "the command is not on the page")
     from voussoir.report_tables import items, verdict
     from voussoir.runs import Run
@@ -617,7 +621,7 @@ def undecided():
         close(item.bar[1], high * value, 1e-9, "high end")
         expect(items(run)["max_slip"].bar is None, "a bar that accuracy.json does not have")
         expect(("undecided" in verdict(run)[1]) == (state == "undecided"), verdict(run)[1])
-    runs("report", "run")
+    reports("run")
     text = Reader("run/report.html").text
     expect("1 of 1 limits is exceeded" in text and f"+{200. * value:.1f}"[:3] in text and "no error bar" not in text, text[:3000])
 
@@ -626,7 +630,7 @@ def earlier():
     """Which stress is compared with a limit is on the page; a run of version 0.3, whose limits were compared with the base, is read."""
     write_scene("scene.prm", LIMITS)
     runs("scene.prm", "--output", "now", *settings("Joints/Model=KSM", "Motion/Duration=0.1"))
-    runs("report", "now")
+    reports("now")
     text = Path("now/report.html").read_text(encoding="utf-8")
     row = lambda text, title: text[text.index(f"<td>{title}"):].partition("</tr>")[0]
     states = ("satisfied", "exceeded")
@@ -650,7 +654,7 @@ def earlier():
     Path("then/summary.json").write_text(json.dumps(found))
     energy = Path("then/energy.csv").read_text().replace("joint_stored", "unknown")
     Path("then/energy.csv").write_text(energy)
-    runs("report", "then")
+    reports("then")
     text = Path("then/report.html").read_text(encoding="utf-8")
     expect("exceeded" in row(text, "Tension upstream, with the base") and "exceeded" not in row(text, "Tension upstream, away from the base"), "limits of 0.3")
     expect("exceeded" in row(text, "Compression, with the base") and "Not shown" not in text, "compression of 0.3")
@@ -685,7 +689,7 @@ def keys():
     limit = found["limits"]["key_shear_stress"]
     close(limit["value"], largest / whole, 1e-4, "what is held against the limit")
     expect(limit["satisfied"] == (largest / whole <= 2e5) and limit["limit"] == 2e5, f"{limit}")
-    runs("report", "run")
+    reports("run")
     expect("Shear stress of the keys, joint 1" in Reader("run/report.html").text, "the page leaves out the keys")
 
 

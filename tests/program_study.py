@@ -148,21 +148,21 @@ def table():
     # The same alone
     runs("scene.prm", "--set", "Motion/Factor=1", "--set", "Joints/Friction=0.8", "--output", "alone")
     expect(Path("alone/history.csv").read_bytes() == Path(f"output/four/runs/{NAMES[3]}/history.csv").read_bytes(), "another history")
-    # Again: nothing; with one more value: two; with another factor of one more value: four new, four take their new name
+    # Again: nothing; with one more value: one; with another factor instead of one that no longer varies: two new, two take their new name
     text, _ = study("four.prm")
     expect("4 before, 0 to do" in text and times_of("output/four") == first, text)
-    write("four.prm", STUDY.replace("0.5 | 1", "0.5 | 1 | 1.2"))
+    write("four.prm", STUDY.replace("0.5 | 1", "1 | 1.2").replace("0.4 | 0.8", "0.8"))
     text, _ = study("four.prm")
-    expect("4 before, 2 to do" in text and first.items() <= times_of("output/four").items(), text)
-    write("four.prm", STUDY.replace("set Friction", "set Model = FJA | FJB\n set Friction"))
+    expect("1 before, 1 to do" in text and set(first.values()) <= set(times_of("output/four").values()), text)
+    write("four.prm", STUDY.replace("0.5 | 1", "0.5").replace("set Friction", "set Model = FJA | FJB\n set Friction"))
     text, _ = study("four.prm")
-    expect("4 before, 4 to do" in text and len(rows_of("output/four")) == 8, text)
+    expect("2 before, 2 to do" in text and len(rows_of("output/four")) == 4, text)
     expect(set(first.values()) <= set(times_of("output/four").values()), "runs were repeated for their names")
     # A file that scenes read has changed: all again
     with open("motion.txt", "a") as file:
         print("# another file", file=file)
     text, _ = study("four.prm", "--dry-run")
-    expect("0 before, 8 to do" in text, text)
+    expect("0 before, 4 to do" in text, text)
 
 
 def killed():
@@ -179,30 +179,30 @@ def interrupted(number):
     """What was done is not repeated, the rest is as if nothing had been."""
     needs_snakemake()
     write_scene(extra="subsection Output\nset Checkpoint interval = 20\nend\n")
-    write("four.prm", STUDY)
-    words = ["four.prm", "--jobs", "1", "--set", "Settings/Motion/Duration=2", "--set", "Settings/Dynamics/Steps per sample=10"]
+    write("three.prm", STUDY.replace("0.5 | 1", "0.5 | 1 | 1.2").replace("0.4 | 0.8", "0.4"))
+    words = ["three.prm", "--jobs", "1", "--set", "Settings/Motion/Duration=1", "--set", "Settings/Dynamics/Steps per sample=10"]
     process = subprocess.Popen([VOUSSOIR, "study", *words], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
     end = time.time() + 200
     second = []  # the scene that runs when one is done; Snakemake chooses the order
     while time.time() < end and not second:
         expect(process.poll() is None, "the study ended before it could be killed")
         time.sleep(.005)
-        done = times_of("output/four")
+        done = times_of("output/three")
         if len(done) == 1:
-            second = [p.parent.name for p in Path("output/four/runs").glob("*/checkpoint.bin") if p.parent.name not in done]
+            second = [p.parent.name for p in Path("output/three/runs").glob("*/checkpoint.bin") if p.parent.name not in done]
     process.send_signal(number)
     _, error = process.communicate()
     expect(number == signal.SIGKILL or process.returncode == 1 and "goes on" in error, f"status {process.returncode}: {error}")
-    first = times_of("output/four")
+    first = times_of("output/three")
     expect(len(first) == 1, f"{len(first)} scenes were done when the study was killed")
     text, _ = study(*words)
-    expect("1 before, 3 to do" in text, text)
-    expect(first.items() <= times_of("output/four").items() and len(times_of("output/four")) == 4, "a scene was repeated")
-    expect('"resumed": true' in Path(f"output/four/records/{second[0]}.json").read_text(), "the second scene did not go on from its checkpoint")
-    study(*words, "--output", "whole")
-    for name in NAMES:
+    expect("1 before, 2 to do" in text, text)
+    expect(first.items() <= times_of("output/three").items() and len(times_of("output/three")) == 3, "a scene was repeated")
+    expect('"resumed": true' in Path(f"output/three/records/{second[0]}.json").read_text(), "the second scene did not go on from its checkpoint")
+    for name in times_of("output/three"):
+        runs(f"output/three/scenes/{name}.prm", "--output", f"whole/{name}")
         for file in ("history.csv", "joints.csv", "faces.csv"):
-            expect(Path(f"whole/runs/{name}/{file}").read_bytes() == Path(f"output/four/runs/{name}/{file}").read_bytes(),
+            expect(Path(f"whole/{name}/{file}").read_bytes() == Path(f"output/three/runs/{name}/{file}").read_bytes(),
                    f"{file} of {name} is another after the kill")
 
 

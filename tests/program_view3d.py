@@ -21,7 +21,7 @@ import numpy as np
 from browser import Browser, find_browser
 from program_ranks import ROCK
 from program_report import Reader, settings
-from run_program import expect, run_cases, runs, summary, write_scene
+from run_program import expect, refused, report, reports, run_cases, runs, summary, write_scene
 from voussoir.frames import Frames, joint_of
 from voussoir.picture import read_solution
 from voussoir.report_view3d import LIBRARIES, SCRIPTS, figure_of, magnification
@@ -151,26 +151,21 @@ def without():
     expect("script" not in read.tags and "script-src" not in html and "libjs-three" in read.text, "the page without libraries")
     expect("The dam at t = " in read.text and "The moving dam" in read.text, "the picture is missing")
     runs("scene.prm", "--output", "still", *settings("Motion/Source=none", "Motion/File="))
-    runs("report", "still")
+    reports("still")
     text = Reader("still/report.html").text
     expect(len(Frames("still").times) == 1 and "The displaced dam" in text and "strongest seconds" not in text, text[:500])
     runs("scene.prm", "--output", "none", "--set", "Output/Frames=0")
-    runs("report", "none")
+    reports("none")
     text = Reader("none/report.html").text
     expect("The moving dam" not in text and "Output/Frames is 0" in text, text[-500:])
     data = Path("run/frames.bin").read_bytes()
     head = data.index(b"\n") + 1
     for damaged, word in ((data[:20], "damaged"), (b"{}\n" + data[head:], "damaged"), (data[:head + 50], "damaged"), (data.replace(b"frames 1", b"frames 9"), "format")):
         Path("run/frames.bin").write_bytes(damaged)
-        refused_report(word)
+        refused(["run"], "run/frames.bin is damaged", word, "Repeat the run", run=report)
     Path("run/frames.bin").write_bytes(data[:-7])  # stopped while it wrote
     expect(len(Frames("run").times) > 10, "a run that was stopped")
-    runs("report", "run")
-
-
-def refused_report(word):
-    from run_program import refused
-    refused(["report", "run"], "run/frames.bin is damaged", word, "Repeat the run")
+    reports("run")
 
 
 def mouse(chromium, kind, x, y, buttons=1):

@@ -11,7 +11,7 @@ from pathlib import Path
 from program_blocks import blocks, force, interrupted
 from program_physics import settings
 from program_ranks import launcher, on_ranks
-from run_program import expect, refused, run_cases, runs, same_to_the_bit, summary, table, write, write_scene
+from run_program import expect, refused, reports, run_cases, runs, same_to_the_bit, summary, table, write, write_scene
 
 COARSE = Path(__file__).resolve().parent.parent / "prm" / "coarse.prm"
 HEAD = "wedge, plane, x [m], y [m], z [m], dip [deg], dip direction [deg], area [m2], friction, cohesion [Pa], uplift [Pa], volume [m3], density [kg/m3]\n"
@@ -160,7 +160,7 @@ def limits():
     found = summary("judged")
     verdict, least = found["limits"]["wedge_safety"], min(one["min_safety"]["value"] for one in found["wedges"].values())
     expect(verdict["is_least"] and not verdict["satisfied"] and verdict["value"] == least, f"{verdict}")
-    runs("report", "judged")
+    reports("judged")
     page = Path("judged/report.html").read_text()
     for words in ("Rock wedges", "Least sliding safety of a rock wedge", f"{least:.2f}", "(required 50)",
                   found["wedges"]["left"]["min_safety"]["mode_in_words"]):
@@ -175,7 +175,7 @@ def limits():
     one = summary("stable")
     expect(one["wedges"]["front"]["min_safety"]["value"] is None and one["limits"]["wedge_safety"]["satisfied"], f"{one['wedges']}")
     expect(wedges("stable")[0][1]["front"][2:] == (123, math.inf), "three planes in contact")
-    runs("report", "stable")
+    reports("stable")
     shown = runs("scene.prm", "--output", "none", *settings("Limits/Wedge safety=2", "Motion/Source=none"))
     expect("wedge safety (there is no Limits/Wedges)" in shown and not Path("none/wedges.csv").exists(), shown)
     write("far.csv", HEAD + "far, roof, 0, 0, 500, 10, 0, 1, 0.5, 0, 0, 1e5, 2600\nfar, side, 0, 0, 0, 90, 90, 1, 0.5, 0, 0, , \n")

@@ -6,6 +6,7 @@
 """
 
 import csv
+import io
 import json
 import os
 import re
@@ -13,6 +14,7 @@ import shutil
 import signal
 import subprocess
 import sys
+import tempfile
 import time
 from collections import Counter
 from pathlib import Path
@@ -57,16 +59,39 @@ def write(name, text):
     return name
 
 
+class Server:
+    """Runs of the program with one start (start_server.cc)."""
+    library, one = os.environ.get("VOUSSOIR_START_SERVER", ""), None
+
+    def __init__(self, program, environment=None, **options):
+        self.files = tempfile.TemporaryDirectory()
+        self.process = subprocess.Popen([program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1,
+                                        env={**os.environ, **(environment or {}), "LD_PRELOAD": self.library}, **options)
+
+    def run(self, words, seconds=120, directory="."):
+        files = [Path(self.files.name, name) for name in ("out", "err")]
+        print(Path(directory).absolute(), *files, seconds, *words, sep="\t", file=self.process.stdin, flush=True)
+        kind, number = self.process.stdout.readline().split()
+        texts = (file.read_text(errors="replace") for file in files)
+        return subprocess.CompletedProcess(words, int(number) if kind == "exit" else -int(number), *texts)
+
+
 def voussoir(*arguments, environment=None):
+    if os.path.isfile(Server.library) and not environment and not any(c in word for word in map(str, arguments) for c in "\t\n"):
+        Server.one = Server.one or Server(VOUSSOIR)
+        return Server.one.run(arguments)
     return subprocess.run([VOUSSOIR, *arguments], capture_output=True, text=True, timeout=120,
                           env={**os.environ, **(environment or {})})
 
 
 def runs(*arguments, environment=None):
     """The run must succeed, with warnings at most; its standard output."""
-    result = voussoir(*arguments, environment=environment)
+    return succeeds(voussoir(*arguments, environment=environment))
+
+
+def succeeds(result):
     expect(result.returncode == 0 and all(line.startswith("voussoir: warning: ") for line in result.stderr.splitlines()),
-           f"status {result.returncode} of {arguments}: {result.stdout[-2000:]}{result.stderr}")
+           f"status {result.returncode} of {result.args}: {result.stdout[-2000:]}{result.stderr}")
     return result.stdout
 
 
@@ -80,9 +105,31 @@ def interrupted(scene, output, *arguments):
     process.wait()
 
 
-def refused(arguments, *parts):
+def report(*words):
+    """`voussoir report` in this process, with empty images: to draw them takes 6 of 8 s."""
+    sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+    from unittest import mock
+    from voussoir import report as page, report_figures, report_view3d
+    from voussoir.command import end_with
+    image = lambda figure, kind="svg": report_figures.plt.close(figure) or "data:,"
+    streams = io.StringIO(), io.StringIO()
+    with mock.patch.object(report_figures, "image", image), mock.patch.object(report_view3d, "image", image), \
+            mock.patch.object(sys, "argv", ["report", *words]), mock.patch.object(sys, "stdout", streams[0]), mock.patch.object(sys, "stderr", streams[1]):
+        try:
+            end_with(page.main)
+        except SystemExit as end:
+            status = end.code
+    return subprocess.CompletedProcess(["report", *words], status, *(stream.getvalue() for stream in streams))
+
+
+def reports(*words):
+    """A report must be written, with warnings at most."""
+    succeeds(report(*words))
+
+
+def refused(arguments, *parts, run=None):
     """The run must end with status 2 and a message that has all these parts."""
-    result = voussoir(*arguments)
+    result = (run or voussoir)(*arguments)
     what = f"{arguments}: status {result.returncode}, message: {result.stderr.strip()}"
     expect(result.returncode == 2, what)
     message = "".join(line + "\n" for line in result.stderr.splitlines() if not line.startswith("voussoir: warning: "))
@@ -562,7 +609,8 @@ def factors():
     write_scene()
     for law in ("FJA", "KSM", "cohesive", "tied"):
         for kind in ("double", "single"):
-            runs("scene.prm", "--output", f"{law}_{kind}", "--set", "Dynamics/Steps per sample=5", "--set", f"Joints/Model={law}", "--set", f"Dynamics/Factors={kind}")
+            runs("scene.prm", "--output", f"{law}_{kind}", "--set", "Dynamics/Steps per sample=5", "--set", f"Joints/Model={law}",
+                 "--set", f"Dynamics/Factors={kind}")
         one, two = summary(f"{law}_double"), summary(f"{law}_single")
         same(f"{law}_double", f"{law}_single", 2e-6)
         for name, extreme in one["extremes"].items():
@@ -598,6 +646,7 @@ def factors():
 
 def threads():
     write_scene()
+    os.environ.pop("GLIBC_TUNABLES", None)  # the program restarts itself
     for n in ("1", "2"):
         runs("scene.prm", "--output", f"threads_{n}", environment={"OMP_NUM_THREADS": n})
     same("threads_1", "threads_2")

@@ -28,7 +28,7 @@ sys.path.insert(0, str(HERE.parent))
 import run_program  # noqa: E402
 from choices import written_files  # noqa: E402
 from relations import ALWAYS, RARE, RELATIONS, Case  # noqa: E402
-from scenes import Failed, Net, Omitted, Refused, Server, first_sentence  # noqa: E402
+from scenes import Failed, Net, Omitted, Refused, first_sentence  # noqa: E402
 
 PAGE = HERE.parent.parent / "doc" / "generated" / "refused_pairs.md"
 
@@ -89,7 +89,6 @@ def page_of(net):
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("voussoir")
-    parser.add_argument("--server", help="test program fuzz_server, which saves the start of the program")
     parser.add_argument("--seed", default="1")
     parser.add_argument("--tenth", action="store_true")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
@@ -100,7 +99,6 @@ def main():
     parser.add_argument("--output", type=Path, default=Path("combinations"))
     options = parser.parse_args()
     run_program.VOUSSOIR = str(Path(options.voussoir).resolve())
-    Server.program = options.server and str(Path(options.server).resolve())
     directory = options.output.resolve() / f"seed-{options.seed[:12]}"
     shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True)

@@ -7,16 +7,15 @@ import os
 import random
 import re
 import subprocess
-import tempfile
 import threading
 import zlib
-from pathlib import Path
 
 import run_program
 from choices import COSTLY, DAMS, Choices, text_of
-from run_program import read_mesh, write_mesh
+from run_program import Server, read_mesh, write_mesh
 
-ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
+ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1",
+        "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}  # without it, the program restarts itself
 
 
 class Refused(Exception):
@@ -31,32 +30,16 @@ class Omitted(Exception):
     """A relation does not apply."""
 
 
-class Server:
-    """Runs of the program without its start-up: the test program fuzz_server. One for each thread."""
-    program, of_thread = "", threading.local()
-
-    def __init__(self):
-        self.directory = tempfile.mkdtemp()
-        self.process = subprocess.Popen([self.program], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, bufsize=1, env={**os.environ, **ROOT})
-
-    def run(self, words, limit):
-        print(self.directory, limit, *words, sep="\t", file=self.process.stdin, flush=True)
-        kind, number = self.process.stdout.readline().split()
-        out, err = (Path(self.directory, name).read_text() for name in ("out", "err"))
-        return subprocess.CompletedProcess(words, int(number) if kind == "exit" else -int(number), out, err)
-
-    @classmethod
-    def get(cls):
-        if not hasattr(cls.of_thread, "server"):
-            cls.of_thread.server = cls()
-        return cls.of_thread.server
+OF_THREAD = threading.local()  # its server
 
 
 def call(words, ranks=1, threads=1, limit=300):
     """Standard output. Throws Refused with the message of one paragraph, or Failed."""
     command = " ".join(f"'{word}'" if re.search(r"[ ;]", word) else word for word in words)
-    if Server.program and ranks == threads == 1 and words[0] != "report":
-        result = Server.get().run(words, limit)
+    if os.path.isfile(Server.library) and ranks == threads == 1 and words[0] != "report":
+        if not hasattr(OF_THREAD, "server"):
+            OF_THREAD.server = Server(run_program.VOUSSOIR, ROOT)
+        result = OF_THREAD.server.run(words, limit)
     else:
         start = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
         try:
