@@ -31,7 +31,8 @@ DEFAULTS = {"Motion/Source": "file"}  # others than those of the program
 # Entries that are no factors: the section Mesh has its own factors below; an entry of older versions; figures need matplotlib; a
 # reader's view of results that are the same.
 EXCLUDED = re.compile(r"Mesh/|Reservoir/Added mass|Output/Figures|Motion/Unit")
-COSTLY = {("Elements/Degree", "2"), ("Foundation/Model", "massless")}.issubset  # in few scenes
+TIMES = {("Elements/Degree", "2"): 6, ("Foundation/Model", "massless"): 4, ("Foundation/Model", "rock"): 3, ("Mesh/GRID/Elements through", "2"): 2,
+         ("Motion/Match", "true"): 3, ("Reservoir/Model", "acoustic"): 2, ("Reservoir/Model", "incompressible"): 2}  # of a run, relative
 COMMON = ("Joints/Overrides", "Statics/Stages", "Joints/Initial gaps")  # lists to which several factors contribute
 WATERLINE = "Reservoir/Water level"
 
@@ -164,6 +165,11 @@ class Choices:
     def name(self, scene):
         """Short text: the levels that are not the defaults."""
         return ", ".join(f"{name}={level}" for name, level in scene.items() if level != self.default[name])
+
+
+def cost(scene):
+    """Time of a run, in units of pairs: a scene that covers fewer is preferred if it is faster."""
+    return 2 * math.prod(TIMES.get(level, 1) for level in scene.items())
 
 
 def text_of(entries):

@@ -17,7 +17,7 @@ from pathlib import Path
 import run_program
 from choices import DAMS
 from run_program import read_mesh, summary, table, write_mesh
-from scenes import ROOT, Failed, Omitted, call
+from scenes import ROOT, Failed, Omitted, call, warnings_of
 
 
 def columns(directory):
@@ -147,15 +147,16 @@ def facts(case):
             raise Failed(f"--validate has other {key}: {valid[key]} and {run[key]}"[:300])
     log = (case.first / "log.txt").read_text()
     logged = [" ".join(w.split()) for w in re.findall(r"^warning: (.*)", log, re.M | re.I)]
-    if [w for w in valid["warnings"] if w not in run["warnings"]] or sorted(logged) != sorted(run["warnings"]):
-        raise Failed(f"warnings of --validate {valid['warnings']}, of the log {logged}, of summary.json {run['warnings']}")
+    expected, found = warnings_of(valid), [" ".join(w.split()) for w in warnings_of(run)]
+    if [w for w in expected if " ".join(w.split()) not in found] or sorted(logged) != sorted(found):
+        raise Failed(f"warnings of --validate {expected}, of the log {logged}, of summary.json {found}")
 
 
 def report(case):
     """Each warning is in the report."""
     call(["report", str(case.first)])
     page = " ".join(html.unescape(re.sub(r"<[^>]*>", "", (case.first / "report.html").read_text())).split())
-    for warning in summary(case.first)["warnings"]:
+    for warning in warnings_of(summary(case.first)):
         if " ".join(warning.split())[:60] not in page:
             raise Failed(f"the report has no warning \"{warning[:80]}\"")
 
@@ -202,7 +203,7 @@ def printed(case):
 
 def without_effect(case):
     """Entries that are said to have no effect have none."""
-    warnings = [w for w in summary(case.first)["warnings"] if " no effect: " in w]
+    warnings = [w for w in warnings_of(summary(case.first)) if " no effect: " in w]
     idle = [e for e in case.entries if any(re.search(re.escape(e) + r" \(", w.split(" no effect: ")[0]) for w in warnings)]
     if not idle:
         raise Omitted("all entries have an effect")
