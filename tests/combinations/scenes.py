@@ -53,10 +53,10 @@ class Server:
         return cls.of_thread.server
 
 
-def call(words, ranks=1, threads=1, limit=300):
+def call(words, ranks=1, threads=1, limit=300, served=True):
     """Standard output. Throws Refused with the message of one paragraph, or Failed."""
     command = " ".join(f"'{word}'" if re.search(r"[ ;]", word) else word for word in words)
-    if Server.program and ranks == threads == 1 and words[0] != "report":
+    if Server.program and served and ranks == threads == 1 and words[0] != "report":
         result = Server.get().run(words, limit)
     else:
         start = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
