@@ -17,6 +17,7 @@ pairs, the checks, and each failure with its command. Exit status: 1 if a relati
 
 import argparse
 import os
+import re
 import shutil
 import sys
 import time
@@ -44,27 +45,36 @@ def chosen(number, scene, idle, met, at_most):
     return result
 
 
-def checked(net, number, scene, relations):
-    """Rows of a scene: number, relation, verdict, text."""
-    case, rows, begin = Case(net, number, scene), [], time.time()
-
-    def first(case):
+def first(case):
+    """The first run of a scene. Some choices leave no equilibrium, such as water on a cracked base without self-weight."""
+    try:
         case.first = case.run("first")
+    except Failed as error:
+        if re.search("did not converge|no equilibrium|moves without limit", str(error)):
+            raise Omitted(str(error)) from None
+        raise
 
-    for relation in (first, *ALWAYS, *relations):
-        verdict, text = "holds", ""
-        try:
-            relation(case)
-        except Omitted:
-            verdict = "does not apply"
-        except Exception as error:  # pylint: disable=broad-except
-            verdict, text = "failed", f"{'' if isinstance(error, Failed) else type(error).__name__ + ': '}{error}"
-            print(f"    FAILED scene {number}, {relation.__name__}: {text}\n        {net.choices.name(scene)}\n"
-                  f"        cd {net.directory}; voussoir scene-{number}.prm", flush=True)
-        rows.append((number, relation.__name__, verdict, text))
-        if case.first is None:
-            break
-    print(f"    scene {number}: {len(rows)} checks, {time.time() - begin:.0f} s", flush=True)
+
+def checked(case, relation):
+    """Number of the scene, relation, verdict."""
+    verdict = "holds"
+    try:
+        relation(case)
+    except Omitted as error:
+        verdict = "does not apply"
+        if relation is first:
+            print(f"    no solution of scene {case.number}: {error}", flush=True)
+    except Exception as error:  # pylint: disable=broad-except
+        verdict = "failed"
+        print(f"    FAILED scene {case.number}, {relation.__name__}: {'' if isinstance(error, Failed) else type(error).__name__ + ': '}{error}\n"
+              f"        {case.net.choices.name(case.scene)}\n        cd {case.net.directory}; voussoir scene-{case.number}.prm", flush=True)
+    return case.number, relation.__name__, verdict
+
+
+def all_checked(case, relations):
+    begin = time.time()
+    rows = [checked(case, relation) for relation in relations]
+    print(f"    scene {case.number}: {len(rows)} checks, {time.time() - begin:.0f} s", flush=True)
     return rows
 
 
@@ -103,14 +113,21 @@ def main():
     net, begin = Net(directory, options.seed), time.time()
     print(f"{len(net.choices.factors)} factors, {len(net.levels)} levels, {len(net.pairs)} pairs, seed {options.seed}", flush=True)
     accepted = net.read_page(PAGE, 10 if options.tenth else 1)
-    met, checks = {relation: set() for relation in RELATIONS}, []
+    met, checks, rows = {relation: set() for relation in RELATIONS}, [], []
     with ThreadPoolExecutor(options.jobs) as pool:
         for number, (scene, idle) in enumerate(net.draw(7 if options.tenth else options.scenes), 1):
             if options.list_refused:
                 options.list_refused.write_text(page_of(net))
-            if not options.draw and options.only in (None, number):
-                checks.append(pool.submit(checked, net, number, scene, chosen(number, scene, idle, met, 4 if options.tenth else 6)))
-        rows = [row for check in checks for row in check.result()]
+            if options.draw or options.only not in (None, number):
+                continue
+            case = Case(net, number, scene)
+            rows.append(checked(case, first))
+            if case.first:
+                relations = (*ALWAYS, *chosen(number, scene, idle, met, 4 if options.tenth else 6))
+                checks.append(pool.submit(all_checked, case, relations))
+            elif rows[-1][2] != "failed":
+                net.scenes.pop()  # its pairs remain open
+        rows += [row for check in checks for row in check.result()]
     print("\n| relation | holds | does not apply | failed |\n|---|---|---|---|")
     for name in dict.fromkeys(row[1] for row in rows):
         print("|", name, "|", " | ".join(str(sum(row[1:3] == (name, verdict) for row in rows)) for verdict in ("holds", "does not apply", "failed")), "|")

@@ -269,7 +269,7 @@ class Net:
         return f"{len(covered)} pairs covered, {refused} refused, {len(self.pairs) - len(covered) - refused - n_open} without effect, {n_open} open"
 
     def draw(self, n_scenes):
-        """Adds scenes with factors without effect until all pairs are covered, and yields them."""
+        """Adds scenes, with their factors without effect, until all pairs are covered, and yields them. The caller may remove the last one."""
         tries = Counter()
         while len(self.scenes) < n_scenes:
             wanted = {pair for pair in self.open_pairs() if tries[pair] < 3}
