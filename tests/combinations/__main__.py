@@ -136,7 +136,8 @@ def main():
         print(f"accepted, but refused in {PAGE.name}: {row}")
     for pair in sorted(map(sorted, net.open_pairs())) if not options.tenth else ():
         print(f"open: {pair}")
-    print(f"\n{len(net.scenes)} scenes, {pairs}, {len(rows)} checks, {failures} failures, {time.time() - begin:.0f} s")
+    print(f"\n{len(net.scenes)} scenes, {pairs}, {len(rows)} checks, {failures} failures, {time.time() - begin:.0f} s, "
+          f"{Server.cpu_time():.0f} s of CPU time")
     return 1 if failures or accepted or net.open_pairs() and not options.tenth else 0
 
 

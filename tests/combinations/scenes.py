@@ -34,7 +34,7 @@ class Omitted(Exception):
 
 class Server:
     """Runs of the program without its start-up: the test program fuzz_server. One for each thread."""
-    program, of_thread = "", threading.local()
+    program, of_thread, all = "", threading.local(), []
 
     def __init__(self):
         self.directory = tempfile.mkdtemp()
@@ -50,7 +50,16 @@ class Server:
     def get(cls):
         if not hasattr(cls.of_thread, "server"):
             cls.of_thread.server = cls()
+            cls.all.append(cls.of_thread.server.process)
         return cls.of_thread.server
+
+    @classmethod
+    def cpu_time(cls):
+        """Ends all servers; the CPU time of all runs so far [s]."""
+        for process in cls.all:
+            process.communicate()
+        times = os.times()
+        return times.children_user + times.children_system
 
 
 def call(words, ranks=1, threads=1, limit=300, served=True):
