@@ -250,7 +250,7 @@ namespace Voussoir
       check_plane_strain(scene, *foundation, opened);
     mesh_warnings = Voussoir::mesh_warnings(opened, scene, concrete_zones);
     assemble(opened, source);
-    tie_base();
+    tie_base(tie_all);
     add_loads();
     foundation->add_mass(structure);
     for (const auto &probe : scene.output.probe_places())
@@ -510,7 +510,7 @@ namespace Voussoir
   }
 
   /** Assigns the laws of the pairs. Pairs at the base are tied if the foundation requires it. */
-  void Dam::tie_base()
+  void Dam::tie_base(const bool tie_all)
   {
     if (!structure.clusters.empty() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
     {
@@ -536,6 +536,10 @@ namespace Voussoir
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       if (base.count(structure.pairs[p].node_1) > 0 && base.count(structure.pairs[p].node_2) > 0)
         laws.of_pair[p] = laws.of_joint.back().get();
+    for (const JointLaw *law : laws.of_pair)
+      if (scene.contact.write_problems && !tie_all && law->flat_friction() < 0. && !law->surfaces_law())
+        throw InputError("\"Contact/Write problems\" requires Coulomb friction in all joints. Set "
+                         "\"Joints/Model\" to FJA or KSM, or remove the entry.");
   }
 
   void Dam::add_loads()

@@ -120,7 +120,7 @@ namespace Voussoir
 
     void choose_laws(bool tie_all);
     void assemble(const HexMesh &opened, const std::string &source);
-    void tie_base();
+    void tie_base(bool tie_all);
     void open_base_joints();
     void cross_joints();
     void find_weight_on_joints();
