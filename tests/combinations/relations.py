@@ -479,9 +479,9 @@ RELATIONS = {
     resumed: shakes, at_rest: shakes,
     mirrored: lambda s: has_mesh_file(s) and is_numbered(s) and s["limits"] != "wedges",  # a wedge has one bank
     # These have the directions x and y: the box of rock with mass, the channel of the water, keys of the base, planes of wedges, stations.
-    rotated: lambda s: has_mesh_file(s) and s["Foundation/Model"] != "rock" and s["base joint"] != "KSM" and s["limits"] != "wedges" and s["Reservoir/Model"] not in (
-        "acoustic", "incompressible") and s["Motion/Source"] == "file" and s["Motion/Match"] == "false" and s["Motion/Abutments"] == "none" and
-    s["sequence"] == "none",
+    rotated: lambda s: has_mesh_file(s) and s["Foundation/Model"] != "rock" and s["base joint"] != "KSM" and s["limits"] != "wedges" and
+    s["Reservoir/Model"] not in ("acoustic", "incompressible") and s["Motion/Source"] == "file" and s["Motion/Match"] == "false" and
+    s["Motion/Abutments"] == s["sequence"] == "none",
     bonded: lambda s: has_mesh_file(s) and is_numbered(s) and (s["base joint"] != "none" or s["lift joints"] != "none") and s[
         "Joints/Initial gaps"] in ("none", "contraction"),
     one_body: lambda s: has_mesh_file(s) and s["base joint"] == s["lift joints"] == "none" and s["joint 1"] == "as all" and s["Mesh/GRID/Joints"] != "0" and
