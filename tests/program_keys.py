@@ -88,6 +88,7 @@ def problems():
          "Contact/Write interval=17")
     files = sorted(Path("x").rglob("problem-*.hdf5"))
     expect(len(files) > 3, f"problems: {len(files)}")
+    refused(["scene.prm", "--validate", *SHORT, "--set", "Joints/Model=FJB", "--set", "Contact/Write problems=true"], "Coulomb friction")
     lines = voussoir("contact", *files[:4], "--tolerance", "1e-9").stdout.splitlines()
     for line in lines:
         result = json.loads(line)

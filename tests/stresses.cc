@@ -400,13 +400,13 @@ namespace
       below("joint: pressure at its nodes, degree " + std::to_string(degree), worst / 2e6,
             slope == 0. ? 1e-12 : .45 * raw / 2e6 + 1e-12);
     }
-    Unknowns half(3 * structure.pairs.size(), 0.); // open above: there is nothing
+    Unknowns half(3 * structure.pairs.size(), 0.); // open above: there is nothing, or round-off
     for (std::size_t i = 0; i < structure.pairs.size(); ++i)
-      half[3 * i] = structure.pairs[i].place[2] < 14. ? 1e6 : 0.;
+      half[3 * i] = structure.pairs[i].place[2] < 14. ? 1e6 : i % 2 == 0 ? 0. : -1e-6;
     JointTractions joint(model, structure);
     const auto    &at = joint.at(half);
     for (std::size_t i = 0; i < at.size(); ++i)
-      expect(half[3 * i] > 0. ? at[i][0] > 0. : at[i][0] == 0. && at[i][1] == 0.,
+      expect(half[3 * i] > 0. ? at[i][0] > 0. : std::abs(at[i][0]) <= -2. * half[3 * i] && at[i][1] == 0.,
              "no pressure where it is open");
   }
 

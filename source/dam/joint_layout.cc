@@ -281,5 +281,9 @@ namespace Voussoir
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       if (tied_nodes.count(structure.pairs[p].node_1) > 0 && tied_nodes.count(structure.pairs[p].node_2) > 0)
         laws.of_pair[p] = laws.of_joint.back().get();
+    for (const JointLaw *law : laws.of_pair)
+      if (scene.contact.write_problems && !tie_all && law->flat_friction() < 0. && !law->surfaces_law())
+        throw InputError("\"Contact/Write problems\" requires Coulomb friction in all joints. Set "
+                         "\"Joints/Model\" to FJA or KSM, or remove the entry.");
   }
 } // namespace Voussoir

@@ -92,10 +92,6 @@ namespace Voussoir
           is_static ? std::vector<std::vector<unsigned int>>() : clusters_with_feet(structure)),
         n_solved(parameters.first_problem)
   {
-    for (const JointLaw *law : laws.of_pair)
-      if (parameters.write_problems && law->flat_friction() < 0. && !law->surfaces_law())
-        throw InputError("\"Contact/Write problems\" requires Coulomb friction in all joints. Set "
-                         "\"Joints/Model\" to FJA or KSM, or remove the entry.");
     bodies.resize(structure.bodies.size());
     for_each_own_body(
         [&](const unsigned int b)

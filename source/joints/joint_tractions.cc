@@ -76,13 +76,12 @@ namespace Voussoir
     for (std::size_t p = 0; p < mean.size(); ++p)
       first[p] = traction[p][0];
     for (std::size_t p = 0; p < mean.size(); ++p)
-      if (first[p] != 0.)
+      if (const double twice = 2. * first[p]; twice != 0.)
       {
         double around = 0.;
         for (const auto &other : mean[p])
           around += other.second * first[other.first];
-        const double pressure = 2. * first[p] - around;
-        traction[p][0] = first[p] > 0. ? std::max(0., pressure) : pressure;
+        traction[p][0] = std::clamp(twice - around, std::min(0., twice), std::max(0., twice));
       }
     return traction;
   }

@@ -17,6 +17,7 @@ pairs, the checks, and each failure with its command. Exit status: 1 if a relati
 
 import argparse
 import os
+import re
 import shutil
 import sys
 import time
@@ -28,49 +29,53 @@ sys.path.insert(0, str(HERE.parent))
 import run_program  # noqa: E402
 from choices import written_files  # noqa: E402
 from relations import ALWAYS, RARE, RELATIONS, Case  # noqa: E402
-from scenes import Failed, Net, Omitted, Refused, first_sentence  # noqa: E402
+from scenes import Failed, Net, Omitted, cpu_time, first_sentence  # noqa: E402
 
 PAGE = HERE.parent.parent / "doc" / "generated" / "refused_pairs.md"
 
 
-def assigned(scenes, at_most):
-    """Relations of each scene: every relation meets every level of every factor once, as far as it applies; the last scenes have the rest."""
-    chosen, met = [[] for _ in scenes], {relation: set() for relation in RELATIONS}
-    for limit in (at_most, len(RELATIONS)):
-        for number, (scene, idle) in enumerate(scenes):
-            levels = {x for x in scene.items() if x[0] not in idle}
-            while len(chosen[number]) < limit:
-                fitting = [relation for relation, applies in RELATIONS.items() if relation not in chosen[number] and applies(scene)]
-                fitting = [relation for relation in fitting if relation not in RARE or number % 10 == 3]
-                best = max(fitting, key=lambda relation: len(levels - met[relation]), default=None)
-                if best is None or not levels - met[best] or limit > at_most and not levels - met[best]:
-                    break
-                chosen[number].append(best)
-                met[best] |= levels
-        if at_most == len(RELATIONS):
-            break
-    return chosen
+def chosen(number, scene, idle, met, at_most):
+    """Relations of a scene: every relation meets every level of every factor once, as far as it applies. met: levels of each relation so far."""
+    result, levels = [], {x for x in scene.items() if x[0] not in idle}
+    fitting = [relation for relation, applies in RELATIONS.items() if (relation not in RARE or number % 10 == 3) and applies(scene)]
+    for relation in sorted(fitting, key=lambda relation: -len(levels - met[relation]))[:at_most]:
+        if levels - met[relation]:
+            result.append(relation)
+            met[relation] |= levels
+    return result
 
 
-def checked(net, number, scene, relations):
-    """Rows of a scene: relation, verdict, text."""
-    case, rows, begin = Case(net, number, scene), [], time.time()
+def first(case):
+    """The first run of a scene. Some choices leave no equilibrium, such as water on a cracked base without self-weight."""
     try:
         case.first = case.run("first")
-    except (Failed, Refused) as error:
-        kind = "--validate accepts the scene, the run does not: " if isinstance(error, Refused) else ""
-        return [("first run", "failed", f"{kind}{error}")], time.time() - begin
-    for relation in (*ALWAYS, *relations):
-        try:
-            relation(case)
-            rows.append((relation.__name__, "holds", ""))
-        except Omitted as error:
-            rows.append((relation.__name__, "no", str(error)))
-        except (Failed, Refused) as error:
-            rows.append((relation.__name__, "failed", f"{'refused: ' if isinstance(error, Refused) else ''}{error}"))
-        except Exception as error:  # pylint: disable=broad-except
-            rows.append((relation.__name__, "failed", f"{type(error).__name__}: {error}"))
-    return rows, time.time() - begin
+    except Failed as error:
+        if re.search("did not converge|no equilibrium|moves without limit", str(error)):
+            raise Omitted(str(error)) from None
+        raise
+
+
+def checked(case, relation):
+    """Number of the scene, relation, verdict."""
+    verdict = "holds"
+    try:
+        relation(case)
+    except Omitted as error:
+        verdict = "does not apply"
+        if relation is first:
+            print(f"    no solution of scene {case.number}: {error}", flush=True)
+    except Exception as error:  # pylint: disable=broad-except
+        verdict = "failed"
+        print(f"    FAILED scene {case.number}, {relation.__name__}: {'' if isinstance(error, Failed) else type(error).__name__ + ': '}{error}\n"
+              f"        {case.net.choices.name(case.scene)}\n        cd {case.net.directory}; voussoir scene-{case.number}.prm", flush=True)
+    return case.number, relation.__name__, verdict
+
+
+def all_checked(case, relations):
+    begin = time.time()
+    rows = [checked(case, relation) for relation in relations]
+    print(f"    scene {case.number}: {len(rows)} checks, {time.time() - begin:.0f} s", flush=True)
+    return rows
 
 
 def page_of(net):
@@ -106,36 +111,32 @@ def main():
     net, begin = Net(directory, options.seed), time.time()
     print(f"{len(net.choices.factors)} factors, {len(net.levels)} levels, {len(net.pairs)} pairs, seed {options.seed}", flush=True)
     accepted = net.read_page(PAGE, 10 if options.tenth else 1)
-    net.draw(7 if options.tenth else options.scenes, lambda net: options.list_refused and options.list_refused.write_text(page_of(net)),
-             options.tenth)
-    open_pairs, covered = net.open_pairs(), net.covered()
-    refused = sum(len(levels) == 2 for levels in net.refused)
-    print(f"{len(net.scenes)} scenes in {time.time() - begin:.0f} s: {len(covered)} pairs covered, {refused} refused, "
-          f"{len(net.pairs) - len(covered) - refused - len(open_pairs)} without effect, {len(open_pairs)} open", flush=True)
-    for row in accepted:
-        print(f"    accepted, but refused in {PAGE.name}: {row}")
-    for pair in sorted(map(sorted, open_pairs)) if not options.tenth else ():
-        print(f"    open: {pair}")
-    status = 1 if accepted or open_pairs and not options.tenth else 0
-    if options.draw:
-        return status
-    relations, rows = assigned(net.scenes, 4 if options.tenth else 6), []
-    todo = [k for k in range(len(net.scenes)) if options.only in (None, k + 1)]
+    met, checks, rows = {relation: set() for relation in RELATIONS}, [], []
     with ThreadPoolExecutor(options.jobs) as pool:
-        for number, (found, seconds) in zip(todo, pool.map(lambda k: checked(net, k + 1, net.scenes[k][0], relations[k]), todo)):
-            rows += [(number + 1, *row) for row in found]
-            bad = [row for row in found if row[1] == "failed"]
-            print(f"    scene {number + 1}: {len(found)} checks, {seconds:.0f} s", flush=True)
-            for name, _, text in bad:
-                print(f"        FAILED {name}: {text}", flush=True)
+        for number, (scene, idle) in enumerate(net.draw(7 if options.tenth else options.scenes), 1):
+            if options.list_refused:
+                options.list_refused.write_text(page_of(net))
+            if options.draw or options.only not in (None, number):
+                continue
+            case = Case(net, number, scene)
+            rows.append(checked(case, first))
+            if case.first:
+                relations = (*ALWAYS, *chosen(number, scene, idle, met, 4 if options.tenth else 6))
+                checks.append(pool.submit(all_checked, case, relations))
+            elif rows[-1][2] != "failed":
+                net.scenes.pop()  # its pairs remain open
+        rows += [row for check in checks for row in check.result()]
     print("\n| relation | holds | does not apply | failed |\n|---|---|---|---|")
     for name in dict.fromkeys(row[1] for row in rows):
-        print("|", name, "|", " | ".join(str(sum(row[1:3] == (name, verdict) for row in rows)) for verdict in ("holds", "no", "failed")), "|")
-    failed = [row for row in rows if row[2] == "failed"]
-    print(f"\n{len(covered)} pairs covered, {len(rows)} checks, {len(failed)} failures, {time.time() - begin:.0f} s")
-    for number, name, _, text in failed:
-        print(f"scene {number}, {name}: {text}\n    {net.choices.name(net.scenes[number - 1][0])}\n    cd {directory}; voussoir scene-{number}.prm")
-    return 1 if failed else status
+        print("|", name, "|", " | ".join(str(sum(row[1:3] == (name, verdict) for row in rows)) for verdict in ("holds", "does not apply", "failed")), "|")
+    pairs, failures = net.counts(), sum(row[2] == "failed" for row in rows)
+    for row in accepted:
+        print(f"accepted, but refused in {PAGE.name}: {row}")
+    for pair in sorted(map(sorted, net.open_pairs())) if not options.tenth else ():
+        print(f"open: {pair}")
+    print(f"\n{len(net.scenes)} scenes, {pairs}, {len(rows)} checks, {failures} failures, {time.time() - begin:.0f} s, "
+          f"{cpu_time():.0f} s of CPU time")
+    return 1 if failures or accepted or net.open_pairs() and not options.tenth else 0
 
 
 if __name__ == "__main__":

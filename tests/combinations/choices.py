@@ -12,7 +12,7 @@ import run_program
 # Choices. {F} in a value is the height of the dam times F above its bottom; GRID is the section of the mesh, Arch210 or Arcs.
 
 BASE = {"Mesh/GRID/Joints": "2", "Mesh/GRID/Elements along": "6", "Mesh/GRID/Elements up": "3", "Mesh/GRID/Elements through": "1",
-        "Mesh/GRID/Smallest height": "20", "Reservoir/Water level": "{.93}", "Motion/Duration": "0.2", "Motion/Time step": "0.01", "Joints/Friction": "0.5",
+        "Mesh/GRID/Smallest height": "20", "Reservoir/Water level": "{.7}", "Motion/Duration": "0.1", "Motion/Time step": "0.01", "Joints/Friction": "0.8",
         "Dynamics/Steps per sample": "4", "Output/Figures": "false", "Output/Checkpoint interval": "0"}
 DAMS = {"Arch210": (0., 210.), "Arcs": (1000., 120.), "file": (500., 210.)}  # bottom and height [m]
 # Entries that a level requires.
@@ -26,12 +26,14 @@ NEEDS = {("Motion/Source", "file"): {"Motion/File": "motion.txt", "Motion/Unit":
              "Upstream", "Downstream", "Sides", "Depth")}},
          ("Foundation/Boundary", "mtf4"): {"Mesh/GRID/Rock/Boundary layers": "9"},
          ("Foundation/Model", "rock"): {"Mesh/GRID/Rock/Element size": "{.3m}"}}
-LAW_NEEDS = {"KSM": {"Joints/Keys/Height": "0.15"}, "cohesive": {"Joints/Strength": "5e5", "Joints/Fracture energy": "100"}}
+LAW_NEEDS = {"KSM": {"Joints/Keys/Height": "0.15"}, "cohesive": {"Joints/Strength": "1e6", "Joints/Fracture energy": "200"}}
 DEFAULTS = {"Motion/Source": "file"}  # others than those of the program
 # Entries that are no factors: the section Mesh has its own factors below; an entry of older versions; figures need matplotlib; a
 # reader's view of results that are the same.
 EXCLUDED = re.compile(r"Mesh/|Reservoir/Added mass|Output/Figures|Motion/Unit")
-COSTLY = {("Elements/Degree", "2"), ("Foundation/Model", "massless")}.issubset  # in few scenes
+TIMES = {("Elements/Degree", "2"): 6, ("Foundation/Model", "massless"): 4, ("Foundation/Model", "rock"): 3, ("Mesh/GRID/Elements through", "2"): 2,
+         ("Motion/Match", "true"): 3, ("Contact/Method", "sweeps"): 6, ("Reservoir/Model", "acoustic"): 2,
+         ("Reservoir/Model", "incompressible"): 2}  # of a run, relative
 COMMON = ("Joints/Overrides", "Statics/Stages", "Joints/Initial gaps")  # lists to which several factors contribute
 WATERLINE = "Reservoir/Water level"
 
@@ -58,10 +60,10 @@ def scales(laws, loads):
                              "adhesive": {"Joints/Adhesion": "2e5"}},
         **lists("Joints/Initial gaps", {"contraction": "contraction: 2 mm", "base": "base: 1 mm", "lift": "lift: 1 mm"}),
         "keys": {"tight": {}, "loose": {"Joints/Keys/Clearance": "0.002", "Joints/Keys/Flank angle": "30"}, "rigid": {"Joints/Keys/Seat compliance": "0"}},
-        **lists("Statics/Stages", {"fill": "fill {.4}", "grout": "grout {.6}, fill {.4}", "grout with pressure": "fill {.3}, grout {1} at 0.2 MPa",
-                                   "cut": "fill {.6}, cut contraction by 1 mm", "day": "fill {.5}, day 30"}),
+        **lists("Statics/Stages", {"fill": "fill {.3}", "grout": "grout {.6}, fill {.3}", "grout with pressure": "fill {.3}, grout {1} at 0.2 MPa",
+                                   "cut": "fill {.4}, cut contraction by 1 mm", "day": "fill {.3}, day 30"}),
         **values("Statics/Water increments", "1", "3"),
-        "water level": {"high": {}, "half": {WATERLINE: "{.5}"}, "below the dam": {WATERLINE: "{-.1}"}, "none": {"Reservoir/Density": "0"}},
+        "water level": {"high": {}, "half": {WATERLINE: "{.4}"}, "below the dam": {WATERLINE: "{-.1}"}, "none": {"Reservoir/Density": "0"}},
         "temperature": {"none": {}, "faces": {"Loads/Temperature/Upstream face": "6", "Loads/Temperature/Downstream face": "-4"},
                         "table": {"Loads/Temperature/Table": "days.csv", "Loads/Temperature/Day": "60"}},
         "tail water": {"none": {}, "low": {"Loads/Tail water/Level": "{.2}"}},
@@ -75,7 +77,7 @@ def scales(laws, loads):
         **values("Reservoir/Reflection", "1", "0.6"),
         "components": {"all": {}, "x": {"Motion/Scale y": "0", "Motion/Scale z": "0"}, "y": {"Motion/Scale x": "0", "Motion/Scale z": "0"}},
         **lists("Motion/Abutments", {"two": "right {.9}: other.txt; left {.9}: motion.txt"}),
-        "sequence": {"none": {}, "two": {"Motion/File": None, "Motion/Sequence": "motion.txt; other.txt", "Motion/Rest": "0.1", "Motion/Duration": "0.1"}},
+        "sequence": {"none": {}, "two": {"Motion/File": None, "Motion/Sequence": "motion.txt; other.txt", "Motion/Rest": "0.05", "Motion/Duration": "0.05"}},
         **values("Damping/Ratio", "0.05", "0"),
         "output": {"tables": {}, "all": {"Output/Solution interval": "10", "Output/Frames": "5", "Output/Probes": "mid: 0 0 {.5}"},
                    "no stresses": {"Output/Envelope interval": "0"}},
@@ -164,6 +166,11 @@ class Choices:
     def name(self, scene):
         """Short text: the levels that are not the defaults."""
         return ", ".join(f"{name}={level}" for name, level in scene.items() if level != self.default[name])
+
+
+def cost(scene):
+    """Time of a run, in units of pairs: a scene that covers fewer is preferred if it is faster."""
+    return 2 * math.prod(TIMES.get(level, 1) for level in scene.items())
 
 
 def text_of(entries):

@@ -9,9 +9,10 @@ import re
 import subprocess
 import threading
 import zlib
+from collections import Counter
 
 import run_program
-from choices import COSTLY, DAMS, Choices, text_of
+from choices import DAMS, Choices, cost, text_of
 from run_program import Server, read_mesh, write_mesh
 
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1",
@@ -30,15 +31,24 @@ class Omitted(Exception):
     """A relation does not apply."""
 
 
-OF_THREAD = threading.local()  # its server
+OF_THREAD, SERVERS = threading.local(), []  # one server for each thread
 
 
-def call(words, ranks=1, threads=1, limit=300):
+def cpu_time():
+    """Ends all servers; the CPU time of all runs so far [s]."""
+    for server in SERVERS:
+        server.process.communicate()
+    times = os.times()
+    return times.children_user + times.children_system
+
+
+def call(words, ranks=1, threads=1, limit=300, served=True):
     """Standard output. Throws Refused with the message of one paragraph, or Failed."""
     command = " ".join(f"'{word}'" if re.search(r"[ ;]", word) else word for word in words)
-    if os.path.isfile(Server.library) and ranks == threads == 1 and words[0] != "report":
+    if os.path.isfile(Server.library) and served and ranks == threads == 1 and words[0] != "report":
         if not hasattr(OF_THREAD, "server"):
             OF_THREAD.server = Server(run_program.VOUSSOIR, ROOT)
+            SERVERS.append(OF_THREAD.server)
         result = OF_THREAD.server.run(words, limit)
     else:
         start = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
@@ -59,6 +69,10 @@ def first_sentence(message):
     return re.split(r"(?<=[^ .][.:]) (?=[A-Z\"])", message)[0]
 
 
+def warnings_of(facts):
+    return [warning["text"] for warning in facts["warnings"]]
+
+
 class Net:
     """The array: draws scenes and validates them."""
 
@@ -67,7 +81,8 @@ class Net:
         self.scenes, self.known = [], {}  # known: results of --validate
         self.levels = [(name, level) for name, levels in self.choices.factors.items() for level in levels]
         self.pairs = {frozenset(pair) for pair in itertools.combinations(self.levels, 2) if pair[0][0] != pair[1][0]}
-        self.refused, self.idle = {}, set()  # sets of levels with a message; (factor, other levels without which it acts)
+        # Sets of levels with a message; (factor, other levels with which it has no effect); pairs that follow from these.
+        self.refused, self.idle, self.ruled_out = {}, set(), set()
 
     def write(self, name, entries):
         """A scene file, and the mesh that it requires."""
@@ -75,7 +90,7 @@ class Net:
         if entries.get("Mesh/File") == "own.msh":
             grid = {e: entries.pop(e) for e in list(entries) if e.startswith("Mesh/Arch210/")}
             grid.update({e: v for e, v in entries.items() if e == "Foundation/Model"})
-            mesh = f"own-{zlib.crc32(text_of(grid).encode()):08x}"
+            mesh = f"own-{threading.get_ident()}-{zlib.crc32(text_of(grid).encode()):08x}"
             if not (self.directory / f"{mesh}.msh").exists():
                 (self.directory / f"{mesh}.prm").write_text(text_of({**grid, "Motion/Source": "none"}))
                 part = self.directory / f"{mesh}-part.msh"
@@ -101,10 +116,13 @@ class Net:
                 self.known[key] = str(error)
         return self.known[key]
 
-    def refusal(self, levels):
-        """First sentence of the refusal without numbers and names, or an empty text."""
-        facts = self.validated({**self.choices.default, **dict(levels)})
+    @staticmethod
+    def reason(facts):
+        """First sentence of a refusal without numbers and names, or an empty text."""
         return re.sub(r"\".*?\"|\(.*?\)|[-+.\de]+", "", first_sentence(facts)) if isinstance(facts, str) else ""
+
+    def refusal(self, levels):
+        return self.reason(self.validated({**self.choices.default, **dict(levels)}))
 
     def mentioned(self, text, names):
         """Factors whose entries are in a text."""
@@ -113,25 +131,16 @@ class Net:
         text = text.replace("Arch210", "GRID").replace("Arcs", "GRID")
         return [name for name in names if any(re.search(re.escape(word) + r"(?![a-z])", text, re.I) for word in words(name))]
 
-    def blame(self, scene, message):
-        """The smallest set of levels that the program refuses, with the defaults that are part of it; its message."""
-        default, factors = self.choices.default, self.choices.factors
-        levels = [(name, level) for name, level in scene.items() if level != default[name]]
-        reason, named = self.refusal(levels), self.mentioned(message, scene)
-        if self.refusal([x for x in levels if x[0] in named]) == reason:
-            levels = [x for x in levels if x[0] in named]
-        size = len(levels) // 2 if len(levels) > 5 else 1
-        while levels:
-            for start in range(0, len(levels), size):
-                rest = levels[:start] + levels[start + size:]
-                if self.refusal(rest) == reason:
-                    levels = rest
-                    break
-            else:
-                if size == 1:
-                    break
-                size = (size + 1) // 2
-            size = max(1, min(size, len(levels)))
+    def blame(self, scene, message, names):
+        """The smallest set of levels of some factors that the program refuses with this message, with the defaults that are part of it; or None."""
+        default, factors, reason = self.choices.default, self.choices.factors, self.reason(message)
+        levels = [(name, scene[name]) for name in names if scene[name] != default[name]]
+        if self.refusal(levels) != reason:
+            return None
+        for level in list(levels):
+            rest = [x for x in levels if x != level]
+            if self.refusal(rest) == reason:
+                levels = rest
         message = self.validated({**default, **dict(levels)})
         for name, level in levels if len(levels) > 2 else ():  # without importance, because all others are refused, too
             rest = [x for x in levels if x[0] != name]
@@ -141,9 +150,11 @@ class Net:
         stated = [name for name in self.mentioned(" ".join(re.findall(r"\S+/[^\"]+", message)), others) if "/" in name]
         for name in dict.fromkeys([*stated, *(others if len(levels) < 2 else ())]):
             if any(not self.refusal([*levels, (name, other)]) for other in list(factors[name])[1:4]):
-                levels.append((name, default[name]))
+                levels.append((name, scene[name] if self.refusal([*levels, (name, scene[name])]) else default[name]))
                 break
-        return frozenset(levels), message
+        self.refused[frozenset(levels)] = self.validated({**default, **dict(levels)})
+        print("        refused:", *(f"{n}={level}" for n, level in sorted(levels)), "|", first_sentence(message), flush=True)
+        return dict(levels)
 
     def inactive(self, scene):
         """Factors without effect in a scene."""
@@ -153,7 +164,7 @@ class Net:
     def learn_idle(self, scene, facts):
         """Reads the warnings about entries without effect."""
         here = set()
-        for warning in facts["warnings"]:
+        for warning in warnings_of(facts):
             entries, _, reason = warning.partition(" no effect: ")
             if not reason:
                 continue
@@ -174,19 +185,17 @@ class Net:
         return result
 
     def open_pairs(self):
-        """Pairs that are neither covered nor refused nor without effect. A pair is refused, too, if it is refused with one level of a third
-        factor, and with all others it is refused or without effect."""
-        no_effect = {frozenset((x, next(iter(others)))) for name, others in self.idle if len(others) == 1
-                     for x in itertools.product([name], self.choices.factors[name])}
-        excluded = no_effect | {levels for levels in self.refused if len(levels) == 2}
-        alone = {next(iter(levels)) for levels in self.refused if len(levels) == 1}
-        for levels in self.refused:
-            for third in levels if len(levels) == 3 else ():
-                pair = levels - {third}
-                if all(any(frozenset((x, (third[0], other))) in excluded for x in pair) or levels - {third} | {(third[0], other)} in self.refused
-                       for other in self.choices.factors[third[0]] if other != third[1]):
-                    excluded = excluded | {pair}
-        return {pair for pair in self.pairs - self.covered() - excluded if not pair & alone}
+        """Pairs that are neither covered nor refused nor without effect."""
+        alone = {x for levels in self.refused if len(levels) == 1 for x in levels}
+        no_effect = {(name, x) for name, others in self.idle if len(others) == 1 for x in others}
+        return {pair for pair in self.pairs - self.covered() - self.refused.keys() - self.ruled_out if not pair & alone and not any(
+            (x[0], y) in no_effect for x, y in itertools.permutations(pair))}
+
+    def is_ruled_out(self, pair):
+        """True if, for a third factor, each level is refused or makes one of the pair ineffective."""
+        names = {name for name, _ in pair}
+        return any(all(self.is_forbidden(scene) or self.inactive(scene) & names for scene in ({**dict(pair), name: level} for level in levels))
+                   for name, levels in self.choices.factors.items() if name not in names)
 
     def read_page(self, page, share):
         """Takes the refused sets of the page, and validates one of @p share rows; the rows that are accepted."""
@@ -218,47 +227,55 @@ class Net:
                 idle = self.inactive(trial)
                 if self.is_forbidden(trial) or not idle.isdisjoint(dict(seed)):
                     return -1e3
-                lost = 10 * len(idle - self.inactive(scene) - {name}) + 20 * COSTLY(trial.items())
+                lost = 10 * len(idle - self.inactive(scene) - {name}) + cost(trial) - cost(scene)
                 return sum(frozenset(((name, level), x)) in wanted for x in scene.items()) * (name not in idle) - lost + self.random.random() / 2
             scene[name] = max(self.choices.factors[name], key=gain)
         active = [x for x in scene.items() if x[0] not in self.inactive(scene)]
-        return sum(frozenset(pair) in wanted for pair in itertools.combinations(active, 2)), scene
+        return sum(frozenset(pair) in wanted for pair in itertools.combinations(active, 2)) - cost(scene), scene
 
-    def draw(self, n_scenes, written, quick):
-        """Adds scenes until all pairs are covered. written(self) follows each scene. quick: takes the default of a named factor where a
-        scene is refused, without a search for the pair."""
-        given_up = set()
-        while len(self.scenes) < n_scenes:
-            wanted = self.open_pairs() - given_up
-            if not wanted:
-                break
-            seeds = self.random.sample(sorted(map(sorted, wanted)), min(8, len(wanted)))
-            seeds = [seed for seed in seeds if not self.is_forbidden(dict(seed))] or seeds
-            _, scene = max(((value, scene) for value, scene in (self.candidate(wanted, seed) for seed in seeds)), key=lambda x: x[0])
-            for _ in range(40):
+    def accepted(self, scene, seed):
+        """Changes factors other than those of the seed until the program accepts the scene; its facts, or None if no scene has the seed."""
+        default = self.choices.default
+        for _ in range(60):
+            levels, named = next((dict(levels) for levels in self.refused if levels <= scene.items()), None), []
+            changed = [name for name in scene if name not in seed and scene[name] != default[name]]
+            if not levels:
                 facts = self.validated(scene)
                 if not isinstance(facts, str):
-                    break
-                if quick:  # the page has most refused pairs
-                    named = [name for name in self.mentioned(facts, scene) if scene[name] != self.choices.default[name]]
-                    name = self.random.choice(named or [n for n in scene if scene[n] != self.choices.default[n]])
-                    scene[name] = self.choices.default[name]
-                    continue
-                levels, message = self.blame(scene, facts)
-                self.refused[levels] = message
-                print("        refused:", *(f"{n}={level}" for n, level in sorted(levels)), "|", first_sentence(message), flush=True)
-                fixed = dict(sorted(levels)[1:] if len(levels) > 1 and self.random.random() < .5 else sorted(levels)[:-1])
-                free = [name for name, _ in levels if name not in fixed]
-                for name in free:
-                    others = [level for level in self.choices.factors[name] if not self.is_forbidden({**scene, name: level})]
-                    scene[name] = max(others or [self.choices.default[name]],
-                                      key=lambda level, name=name: sum(frozenset(((name, level), x)) in wanted for x in scene.items()))
-            else:
-                raise Failed(f"no scene found: {facts}")
-            self.scenes.append((scene, self.learn_idle(scene, facts)))
-            written(self)
-            new = len(wanted) - len(self.open_pairs() - given_up)
-            print(f"    scene {len(self.scenes)}: {new} new pairs, {len(wanted) - new} left, {len(self.refused)} refused, "
-                  f"{len(self.known)} validated", flush=True)
-            if new == 0:
-                given_up.update(frozenset(seed) for seed in seeds)
+                    return facts
+                named = self.mentioned(facts, scene)
+                levels = self.blame(scene, facts, named if changed else scene)
+            free = [name for name in levels or () if name not in seed] or [name for name in named if name in changed] or changed
+            if not free:
+                return None
+            allowed = {name: [level for level in (self.choices.factors[name] if levels else [default[name]]) if level != scene[name] and not self.is_forbidden(
+                {**scene, name: level})] for name in free}
+            name = self.random.choice([name for name in free if allowed[name]] or changed or free)
+            scene[name] = self.random.choice(allowed.get(name) or [default[name]])
+        return None
+
+    def counts(self):
+        covered, n_open = self.covered(), len(self.open_pairs())
+        alone = {x for levels in self.refused if len(levels) == 1 for x in levels}
+        refused = sum(pair in self.refused or pair in self.ruled_out or not pair.isdisjoint(alone) for pair in self.pairs - covered)
+        return f"{len(covered)} pairs covered, {refused} refused, {len(self.pairs) - len(covered) - refused - n_open} without effect, {n_open} open"
+
+    def draw(self, n_scenes):
+        """Adds scenes, with their factors without effect, until all pairs are covered, and yields them. The caller may remove the last one."""
+        tries = Counter()
+        while len(self.scenes) < n_scenes:
+            wanted = {pair for pair in self.open_pairs() if tries[pair] < 3}
+            seeds = self.random.sample(sorted(map(sorted, wanted)), min(8, len(wanted)))
+            self.ruled_out |= {frozenset(seed) for seed in seeds if self.is_ruled_out(seed)}
+            seeds = [seed for seed in seeds if frozenset(seed) not in self.ruled_out]
+            if not wanted:
+                break
+            if not seeds:
+                continue
+            _, scene, seed = max(((*self.candidate(wanted, seed), seed) for seed in seeds), key=lambda x: x[0])
+            facts = self.accepted(scene, dict(seed))
+            tries[frozenset(seed)] += 1
+            if facts:
+                self.scenes.append((scene, self.learn_idle(scene, facts)))
+                yield self.scenes[-1]
+            print(f"    drawn {len(self.scenes)}: {self.counts()}, {len(self.refused)} refused, {len(self.known)} validated", flush=True)

@@ -49,8 +49,7 @@ namespace Voussoir
      * @param single_factors true: the factors of the bodies are in single precision (CondensedBody). The joint
      * operator is always in double precision.
      *
-     * Throws InputError if ContactParameters::write_problems is set for a law without Coulomb friction, and
-     * ComputationError if a body cannot be factorised. */
+     * Throws ComputationError if a body cannot be factorised. */
     JointSystem(const Structure &structure, const PairLaws &laws, const ContactParameters &parameters,
                 const StepOperator &step, const Unknowns &springs = Unknowns(),
                 const BaseElimination::Nodes *base = nullptr, bool single_factors = false);

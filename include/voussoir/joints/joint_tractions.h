@@ -22,8 +22,8 @@ namespace Voussoir
     JointTractions(const SolidModel &model, const Structure &structure);
 
     /** Returns the traction of side 1 on side 2 at each pair, in the frame of the pair; compression is
-     * positive [Pa]. @p force: three values per pair [N]. The correction applies to pairs with a normal
-     * force only. It does not turn compression into tension. */
+     * positive [Pa]. @p force: three values per pair [N]. The correction keeps the sign of a normal
+     * traction and at most doubles it, so that a force of the size of round-off has no effect. */
     const std::vector<Vector3> &at(const Unknowns &force);
 
   private:
