@@ -42,7 +42,7 @@ namespace Voussoir
      * strength. */
     bool needs_path(const Dam &dam)
     {
-      for (std::size_t p = 0; p < dam.structure.pairs.size() && !dam.scene.statics.stages.empty(); ++p)
+      for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
         if (const JointLaw &law = *dam.layout.laws.of_pair[p];
             dam.layout.is_cast(dam.structure.pairs[p]) && !dam.is_tied(p) && law.flat_friction() != 0. &&
             (law.n_memory() > 0 || !law.is_tangentially_tied()))
