@@ -486,8 +486,6 @@ RELATIONS = {
         "Joints/Initial gaps"] in ("none", "contraction"),
     one_body: lambda s: has_mesh_file(s) and s["base joint"] == s["lift joints"] == "none" and s["joint 1"] == "as all" and s["Mesh/GRID/Joints"] != "0" and
     s["Joints/Initial gaps"] == "none" and s["Statics/Stages"] in ("none", "fill", "day"),
-    # Friction in base and lift joints depends on the path; the increments are refined with stages only.
-    increments: lambda s: s["Statics/Stages"] != "none" or not is_open(s, "base") and not is_open(s, "lift"),
     zero_gaps: lambda s: has_joints(s) and s["Joints/Initial gaps"] == "none",
     equal_modulus: lambda s: s["sustained moduli"] == "none",
     equal_abutments: lambda s: s["Foundation/Model"] == "massless" and s["Motion/Source"] == "file" and s["Motion/Abutments"] == s["sequence"] == "none",
