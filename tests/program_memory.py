@@ -60,7 +60,7 @@ def estimates():
                        ("quadratic", scene("quadratic", 5, 30, 8, 1, more="subsection Elements\n set Degree = 2\n end")),
                        ("water", scene("water", 5, 60, 16, 2, more="subsection Reservoir\n set Model = acoustic\n set Element size = 16\n end")),
                        ("rock", scene("rock", 5, 30, 10, 1, ROCK, ON_ROCK)),
-                       ("massless", scene("massless", 5, 20, 6, 1, ROCK.replace("30", "150"), MASSLESS))):
+                       ("massless", scene("massless", 5, 20, 6, 1, ROCK.replace("30", "100"), MASSLESS))):
         run, halved = estimate(runs(file, "--validate"))
         runs(file, "--output", name)
         taken = summary(name)["memory_bytes"]
