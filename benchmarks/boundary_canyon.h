@@ -9,6 +9,7 @@
 #include <voussoir/rock/sections.h>
 #include <voussoir/rock/transmitting_boundary.h>
 #include <voussoir/rock/viscous_boundary.h>
+#include <voussoir/solid/critical_step.h>
 
 #include <complex>
 #include <map>

@@ -202,7 +202,7 @@ namespace
       for (std::size_t k = 0; k < steady.size(); ++k)
         steady[k] += load.force[k];
     dam.foundation->start(motion, grid, zero);
-    Newmark    newmark(dam.structure, dam.laws, scene.contact, dt, ImpactRule::mean_force,
+    Newmark    newmark(dam.structure, dam.layout.laws, scene.contact, dt, ImpactRule::mean_force,
                        dam.foundation->support(dam.structure));
     const bool moves = dam.foundation->moves_base();
     const auto load_at = [&](const unsigned int k)
@@ -255,7 +255,7 @@ namespace
       }
       worst = std::max({worst, difference(our_sum, their_sum), parts.difference_to(our_sum, step)});
     }
-    expect(moved || dam.tied, "joints open or slide");
+    expect(moved || dam.layout.tied, "joints open or slide");
     return worst;
   }
 

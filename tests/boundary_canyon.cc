@@ -6,6 +6,7 @@
 #include "column.h"
 
 #include <voussoir/rock/arrival.h>
+#include <voussoir/solid/critical_step.h>
 
 namespace
 {

@@ -10,6 +10,7 @@
 
 #include <voussoir/foundation/region_parameters.h>
 #include <voussoir/rock/growth.h>
+#include <voussoir/solid/critical_step.h>
 
 namespace
 {

@@ -5,6 +5,7 @@
 #include "column.h"
 
 #include <voussoir/motion/motion.h>
+#include <voussoir/solid/critical_step.h>
 
 namespace
 {

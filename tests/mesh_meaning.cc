@@ -263,11 +263,31 @@ namespace
   void test_probes()
   {
     const SolidModel model(arch(8), 1);
-    const auto       node = probe_node(model, "crown", {{-40.5, .1, 9.}});
-    expect(distance_between(model.points[node], {{-40., 0., 10.}}) < 1e-9, "the node of a probe");
+    const PlaceInDam node = probe_place(model, "crown", {{-40., 0., 10.}});
+    expect(node.parts.size() == 1 && node.parts[0].second == 1. &&
+               distance_between(model.points[node.parts[0].first], {{-40., 0., 10.}}) < 1e-9,
+           "the node of a probe");
+    // Two nodes are at the same distance from the middle: the last digit of a coordinate must not decide.
+    const SolidModel even(arch(7), 1);
+    for (const double y : {-1e-9, 0., 1e-9, .5, 3., 7.})
+    {
+      const auto at = [&](const Vector3 &p, const std::function<Vector3(unsigned int)> &at_node)
+      { return probe_place(even, "between", p).interpolated(at_node); };
+      const auto linear = [&](const unsigned int i) { return even.points[i]; };
+      const auto square = [&](const unsigned int i) {
+        return Vector3{{even.points[i][0] * even.points[i][0], even.points[i][2], 0.}};
+      };
+      const Vector3 p = {{-36., y, 4.}}, mirrored = {{-36., -y, 4.}};
+      expect(distance_between(at(p, linear), p) < 1e-9, "a linear field at a probe");
+      expect(distance_between(at(p, square), at(mirrored, square)) < 1e-8, "a mirrored probe");
+    }
+    // At half a metre before the middle of a side
+    const PlaceInDam outside = probe_place(model, "outside", {{-39.993, 4.518, 9.}});
+    expect(outside.parts.size() == 4 && distance_between(outside.point, {{-39.496, 4.462, 9.}}) < .01,
+           "the point of the face at a probe outside");
     expect_error(
         [&] {
-          probe_node(model, "far", {{-40., 0., 200.}});
+          probe_place(model, "far", {{-40., 0., 200.}});
         },
         {"Output/Probes", "\"far\"", "(-40, 0, 200) m", "190 m from the dam", "(-40, 0, 10) m"});
   }

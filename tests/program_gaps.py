@@ -62,6 +62,11 @@ def grout():
         check(f"{name}: distance of the faces", end, row["distance_of_faces_m"], 1e-3)
         check(f"{name}: compression", compression, row["compression_after_cooling_Pa"], 1e6)
         check(f"{name}: gap", max(opening, 0.), max(row["gap_after_cooling_m"], 0.), 1e-3)
+        names, pairs = table(f"{name}/joint_points.csv")
+        for pair in (dict(zip(names, values)) for values in pairs):
+            check(f"{name}: pressure of a pair", pair["static_pressure"], row["compression_after_cooling_Pa"], 1e6)
+            check(f"{name}: distance at a pair", pair["static_distance"], row["distance_of_faces_m"], 1e-3)
+            check(f"{name}: opening of a pair", max(pair["static_opening"], 0.), max(row["gap_after_cooling_m"], 0.), 1e-3)
     print(f"    {i + 1} rows; the last: {compression:.3f} Pa, {end:.10f} m")
     # The pressure acts where the stage grouts: from 0 to 4 m, on 7/8 of the joint. The force of the grout remains when it sets.
     compression, _, steps = bars("lift", 10., 2.4e10, (0, 0, 0), "day 0, grout 4 at 1 MPa, grout 5", n_up=4)

@@ -296,6 +296,20 @@ def uplift():
         expect(abs(found[monolith][2] / (1e4 * 100 * (50 + 10) / 2) - 1) < 1e-12, f"{found}")
     expect(summary("with")["static"] == summary("tail")["static"] != summary("without")["static"], "nothing moves")
     expect("base uplift" not in summary("without")["loads"], "unless it is asked for")
+    water = summary("without")["loads"]["water"]
+    push = 1e4 * 50**2 / 2 * 20  # the nodes of the base are fixed
+    print(f"    {water}, by hand {push} N")
+    expect(abs(water["resultant"][0] / push - 1) < 1e-12 and max(map(abs, water["resultant"][1:])) < 1e-9 * push, f"{water}")
+    expect(.9 * push < water["resultant_on_free_nodes"][0] < push, f"{water}")
+    # `needs`: the row without the uplift of a bonded base keeps the staged self-weight, and so changes no table.
+    lifted = settings(Loads__Uplift__Base="true")
+    row, = (x for x in json.loads(runs("scene", "static.prm", "--choices", *lifted))["choices"] if x["name"] == "without uplift")
+    result("lifted", *lifted)
+    result("row", *lifted, *(x for name, value in row["set"].items() for x in ("--set", f"{name}={value}")))
+    tables = sorted(file.name for file in Path("lifted").glob("*.csv"))
+    expect("history.csv" in tables and tables == sorted(file.name for file in Path("row").glob("*.csv")), f"{tables}")
+    for name in tables:
+        expect(Path("lifted", name).read_bytes() == Path("row", name).read_bytes(), f"without uplift: {name}")
 
 
 if __name__ == "__main__":

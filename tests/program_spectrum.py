@@ -141,6 +141,8 @@ def stiff():
     write("spectrum.csv", "0 3\n0.03 3\n0.1 7\n2 1\n")
     text = runs("modes", file, "--count", "4", "--spectrum", "spectrum.csv", "--output", "out", *settings("Motion/Scale x=0", "Motion/Scale y=0.5"))
     expect("combination of 0 modes" in text, text)
+    warned = voussoir("modes", file, "--count", "4", "--spectrum", "spectrum.csv", *settings("Motion/Scale y=0.5")).stderr
+    expect("Vertical ratio" not in warned and "Damping/Ratio (" not in warned, warned)
     found, mass = printed(text), 2500 * 10 * 10 * (60 - 2.5)  # the lower half of the lowest elements is fixed
     for d, a in enumerate((0, 1.5, 3)):
         expect(abs(found["base force [MN]"][d] - 1e-6 * mass * a) <= 5.1e-4, f"base force {found['base force [MN]']}")

@@ -408,7 +408,9 @@ def messages():
     """Bad input ends with one paragraph."""
     write_scene()
     for entries, parts in ((["Reservoir/Length=50"], ("Reservoir/Length", "depth")),
-                           (["Reservoir/Element size=4"], ("critical time step of the water", "Steps per sample")),
+                           (["Reservoir/Element size=10"], ("critical time step of the water, 0.00", "Steps per sample")),
+                           (["Reservoir/Element size=3"], ("critical time step of the water, about 0.00", "nodes", "Steps per sample")),
+                           (["Reservoir/Length=1e7"], ("GiB of this computer", "Element size")),
                            (["Reservoir/Element size=190"], ("Element size",)), (["Reservoir/Reflection=2"], ("Reflection",)),
                            (["Output/Pressure depths=20,300", "Reservoir/Element size=25", "Dynamics/Steps per sample=2"],
                             ("Pressure depths", "300 m", "195 m")),

@@ -134,7 +134,8 @@ namespace
                std::abs(place[2] - 20.) < 1e-12,
            "its place and time");
     expect_close(points.residual(true).value, std::hypot(.03, .01), 1e-12, "slip that remains");
-    points.write(".", *wall.geometry);
+    points.write(".", *wall.geometry,
+                 std::vector<Vector3>(wall.structure.pairs.size(), Vector3{{1., 2., 3.}}));
     std::ifstream in("joint_points.csv");
     std::string   line;
     std::getline(in, line);

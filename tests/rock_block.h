@@ -249,7 +249,7 @@ namespace Blocks
     foundation.add_mass(dam.structure);
     const TimeGrid grid{c.dt, c.substeps, 0};
     foundation.start({}, grid, Unknowns(unit.size(), 0.));
-    Newmark newmark(dam.structure, dam.laws, contact, c.dt, ImpactRule::mean_force,
+    Newmark newmark(dam.structure, dam.layout.laws, contact, c.dt, ImpactRule::mean_force,
                     foundation.support(dam.structure));
     return run(
         newmark, dam, unit, c.dt, c.duration, c.pulse_length,
@@ -351,7 +351,7 @@ namespace Blocks
       for (unsigned int d = 0; d < 3; ++d)
         if (held(i, d))
           unit[3 * i + d] = 0.;
-    Newmark newmark(all, dam.laws, Columns::tight(), c.dt, ImpactRule::mean_force);
+    Newmark newmark(all, dam.layout.laws, Columns::tight(), c.dt, ImpactRule::mean_force);
     return run(newmark, dam, unit, c.dt, c.duration, c.pulse_length);
   }
 

@@ -2,7 +2,7 @@
 // The static solver of the rock: equilibrium; halving the mesh adds few iterations; coarse problems by CHOLMOD and ML.
 
 #include <voussoir/foundation/rock_aggregates.h>
-#include <voussoir/foundation/rock_statics.h>
+#include <voussoir/foundation/rock_static_state.h>
 #include <voussoir/rock/rock_model.h>
 
 #include "box.h"
@@ -74,7 +74,7 @@ namespace
     Solved result;
     result.share = 2. * RockAggregates(model.stiffness, model.points, held, strong_coupling()).n() /
                    n_nodes; // 6 and 3 per node
-    RockStatics statics(model, held, solver);
+    RockStatics statics(model, held, {}, solver);
     Log         log(true);
     result.iterations = statics.solve(b, x, log);
     model.stiffness.multiply(x.data(), Kx.data());
@@ -131,6 +131,53 @@ namespace
               << " on 24^3\n";
   }
 
+  /** A vertical force on a box of rock on springs: displacements of the half-space (Boussinesq), at a quarter of the width on
+   * the ground and below the force, with elements of h [m]. Returns the larger error; with held sides for comparison. */
+  double half_space(const bool is_held)
+  {
+    constexpr unsigned int n = 24;
+    constexpr double       h = 25., nu = .25, young = 15e9, force = -1e9, G = young / (2. + 2. * nu),
+                     r = n * h / 4.;
+    RockParameters parameters;
+    parameters.nodal_everywhere = true;
+    parameters.materials[Boxes::rock] = Material{young, nu, 2700.};
+    const RockModel   model = make_rock_model(Boxes::box({n, n, n / 2}, {"x-", "x+", "y-", "y+", "z-"},
+                                                         [](const double i, const double j, const double k) {
+                                                         return Vector3{{h * i, h * j, h * k}};
+                                                       }),
+                                              parameters);
+    const Vector3     middle = {{n * h / 2., n * h / 2., n * h / 2.}};
+    std::vector<bool> held(model.points.size(), false);
+    for (const BoundaryFace &face : model.faces)
+      for (const unsigned int node : face.nodes)
+        held[node] = is_held;
+    const auto at = [&](const double x, const double z)
+    {
+      unsigned int nearest = 0;
+      for (unsigned int i = 0; i < model.points.size(); ++i)
+        if (const Vector3 p = {{middle[0] + x, middle[1], middle[2] + z}};
+            norm(model.points[i] - p) < norm(model.points[nearest] - p))
+          nearest = i;
+      return 3 * nearest + 2;
+    };
+    Unknowns b(3 * model.points.size(), 0.), u;
+    b[at(0., 0.)] = force;
+    Log log(true);
+    RockStatics(model, held, is_held ? NodeSprings() : springs_of_far_rock(model, middle)).solve(b, u, log);
+    const double on_ground = u[at(r, 0.)] / (force * (1. - nu) / (2. * M_PI * G * r)),
+                 below = u[at(0., -r)] / (force * (3. - 2. * nu) / (4. * M_PI * G * r));
+    std::cout << (is_held ? "held" : "springs") << ": displacement over that of the half-space " << on_ground
+              << " on the ground, " << below << " below the force\n";
+    return std::max(std::abs(on_ground - 1.), std::abs(below - 1.));
+  }
+
+  void far_rock()
+  {
+    const double springs = half_space(false), held = half_space(true);
+    expect(springs < .1 && springs < .3 * held,
+           "springs of the far rock: " + std::to_string(springs) + ", held: " + std::to_string(held));
+  }
+
   /** The coarse solvers by CHOLMOD and by ML: both converge to the same displacement. */
   void coarse_solvers()
   {
@@ -182,6 +229,7 @@ namespace
 int main()
 {
   return run({{"halving the mesh", halving},
+              {"far rock", far_rock},
               {"coarse solvers", coarse_solvers},
               {"flat elements", flat_elements},
               {"sheets", sheets}});

@@ -285,6 +285,11 @@ namespace
     const auto list = [](const std::string &section, const std::string &entry)
     { return "subsection " + section + "\nset " + entry + "\nend\n"; };
     std::ofstream("mass.csv") << "0,0\n200,150\n";
+    const std::string wedge =
+        "wedge,plane,x,y,z,dip,dip direction,area,friction,cohesion,uplift,volume,density\n"
+        "left,bottom,0,0,0,30,90,";
+    std::ofstream("usual.csv") << wedge << "500,0.7,1e5,0,9000,2600\n";
+    std::ofstream("odd.csv") << wedge << "500,0.7,0.2,0,9000,26\n"; // in MPa, kN/m^3
     const auto table = [](const std::string &day, const std::string &more)
     {
       return "subsection Loads\nsubsection Temperature\nset Table = kelvin.csv\nset Day = " + day +
@@ -313,6 +318,12 @@ namespace
          {"Loads/Concentrated: crane is 300 N"}},
         {list("Reservoir", "Model = added mass table\nset Table = mass.csv"),
          {"Reservoir/Table: largest added mass of mass.csv is 150 kg/m^2: usual is 1000 to 1e+06 kg/m^2"}},
+        {list("Limits", "Wedges = usual.csv\nset Wedge safety = 1.2"), {}},
+        {list("Limits", "Wedges = odd.csv"),
+         {"Limits/Wedges: density of wedge left is 26 kg/m^3: usual is 2000 to 3500 kg/m^3."},
+         {"Limits/Wedges: cohesion of plane bottom of wedge left is 0.2 Pa: usual is 1000 to 1e+07 Pa."}},
+        {list("Limits", "Wedge safety = 1.2"),
+         {"Limits/Wedge safety", "has no effect: there is no Limits/Wedges"}},
         {table("200", ""), {}},
         {table("50", "subsection Silt\nend\n"),
          {"Loads/Temperature/Table (kelvin.csv): Upstream face on day 50 is 285.5 degC", "-40 to 50 degC",

@@ -138,7 +138,7 @@ namespace
     }
     const Unknowns zero(3 * dam.structure.n_nodes(), 0.);
     dam.foundation->start(motion, {motion.dt, 1, n}, zero);
-    Newmark newmark(dam.structure, dam.laws, scene.contact, motion.dt, ImpactRule::mean_force);
+    Newmark newmark(dam.structure, dam.layout.laws, scene.contact, motion.dt, ImpactRule::mean_force);
     newmark.start(zero, zero, {}, zero, {});
     const StabilityMonitor watch(dam, motion, newmark);
     for (step = 1; step <= n; ++step)

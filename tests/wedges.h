@@ -298,6 +298,8 @@ namespace Wedges
     refused("plane twice", start + bottom + bottom, "two planes");
     refused("fourth plane",
             start + bottom + side + "left,c,0,0,0,80,200,1,0,0,0,,\nleft,d,0,0,0,9,9,1,0,0,0,,\n", "fourth");
+    refused("one wedge with two names", start + "L" + bottom.substr(4) + "l" + side.substr(4),
+            "but for capitals");
     refused("another unit", "wedge,plane,cohesion [MPa]\n", "[MPa]");
     refused("unknown column", "wedge,plane,cohesoin\n", "Did you mean \"cohesion\"");
     refused("missing column", "wedge,plane,x,y,z,dip,dip direction,area,friction,cohesion,uplift,volume\n",

@@ -157,6 +157,7 @@ namespace Voussoir
       const std::string &command = arguments.command, file = scene_file(arguments);
       if ((command == "mesh" || command == "motion") && arguments.value("--output").empty())
         throw InputError("`voussoir " + command + "` requires --output FILE.");
+      scene.is_for_modes = command == "modes";
       read_scene(file, arguments.overrides, scene, prm);
       if (!command.empty() && !arguments.value("--output").empty())
         scene.check_output(arguments.value("--output"));

@@ -63,7 +63,8 @@ namespace Voussoir
       else if (!usual || load.factor != 1.)
         log.line("Loads     %s x %g: %.4g %.4g %.4g MN (downstream, left bank, up)%s", load.name.c_str(),
                  load.factor, 1e-6 * f[0], 1e-6 * f[1], 1e-6 * f[2],
-                 dam.base_is_held() ? ", without the forces on the fixed base" : "");
+                 dam.base_is_held() && norm(load.on_fixed) == 0. ? ", without the forces on the fixed base"
+                                                                 : "");
     }
     if (scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)
     {
@@ -84,7 +85,9 @@ namespace Voussoir
     for (const StaticLoad &load : dam.loads)
     {
       Json one;
-      one.add("factor", load.factor).add_list("resultant", load.resultant());
+      one.add("factor", load.factor)
+          .add_list("resultant", load.resultant())
+          .add_list("resultant_on_free_nodes", load.resultant() - load.on_fixed);
       json.add(load.name, one);
     }
     if (scene.loads.uplift.base && scene.loads.factor("uplift") != 0.)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/memory_need.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/base/ranks.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/joints/body_factor.h>
@@ -8,6 +9,7 @@
 #include <voussoir/water/water_size.h>
 
 #include <omp.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -16,6 +18,7 @@
 #include <new>
 #include <numeric>
 #include <set>
+#include <sstream>
 
 namespace Voussoir
 {
@@ -27,6 +30,9 @@ namespace Voussoir
     // Measured, see tests/program_memory.py [bytes].
     constexpr double program = 178e6, per_cell = 700., per_node = 700., per_rock_node = 2100.,
                      per_coarse = 900.; // static state, per rock node on the first rank, with Trilinos
+
+    constexpr double seconds_per_water_node = 1.2e-5, ///< of the mesh
+        seconds_per_water_step = 3e-8;                ///< of a time step, per node
 
     /** Factors from elements of degree 1 to elements of the given degree: number of nodes, of blocks of the
      * stiffness matrix, of entries of matrix factors, and squared number of nodes on surfaces. */
@@ -195,11 +201,13 @@ namespace Voussoir
       return sum > 0. ? *std::max_element(of_rank.begin(), of_rank.end()) / sum : 1.;
     }
 
-    /** Acoustic water: its nodes, and the reaction in the stiffness of the bodies. @p n_blocks: of the stiffness. */
-    double of_water(const ReservoirParameters &reservoir, const HexMesh &mesh, const double n_blocks)
+    /** Returns the estimated number of nodes of the water. @p h: receives the element size of a generated channel [m], or
+     * 0. */
+    double water_nodes(const ReservoirParameters &reservoir, const HexMesh &mesh, double &h)
     {
+      h = 0.;
       if (mesh.water != nullptr)
-        return bytes_per_water_node * mesh.water->nodes.size() + block * n_blocks;
+        return mesh.water->nodes.size();
       double area = 0., bottom = reservoir.level; // of the section below the water level
       for (const HexMesh::Face &face : mesh.faces)
         if (face.surface == PhysicalId::upstream)
@@ -220,8 +228,15 @@ namespace Voussoir
       const double depth = reservoir.level - bottom;
       if (!(depth > 0.))
         return 0.;
-      return bytes_per_water_node * channel_nodes(area, depth, reservoir.length, reservoir.element_size) +
-             block * n_blocks;
+      h = reservoir.element_size > 0. ? reservoir.element_size : depth / 16.;
+      return channel_nodes(area, depth, reservoir.length, h);
+    }
+
+    /** Acoustic water: its nodes, and the reaction in the stiffness of the bodies. @p n_blocks: of the stiffness. */
+    double of_water(const ReservoirParameters &reservoir, const HexMesh &mesh, const double n_blocks)
+    {
+      double h;
+      return bytes_per_water_node * water_nodes(reservoir, mesh, h) + block * n_blocks;
     }
 
     /** Returns the memory of the matrices of the dam [bytes]. @p factors: receives the memory of its factors. */
@@ -341,6 +356,42 @@ namespace Voussoir
       need.run = need.of_others =
           std::max(need.run, program + dam + of_massless_rock(mesh, scene.elements.degree));
     return need;
+  }
+
+  void check_water_size(const Scene &scene, const double dt, Log &log)
+  {
+    const ReservoirParameters &reservoir = scene.reservoir;
+    double                     h = 0.;
+    const double               n = reservoir.is_meshed() ? water_nodes(reservoir, scene.hex_mesh(), h) : 0.;
+    if (h == 0.) // no generated channel
+      return;
+    constexpr double gib = 1024. * 1024. * 1024.;
+    const double     memory = double(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE),
+                 bytes = n * bytes_per_water_node, step = h / (1.02 * reservoir.sound_speed),
+                 factor = std::pow(dt / step, 2); // of the mass of cubes
+    char size[120];
+    std::snprintf(size, sizeof(size), "elements of %.3g m: about %.3g nodes, %.2g GiB", h, n, bytes / gib);
+    if (bytes > memory)
+      throw InputError(std::string("Mesh of the water: ") + size + ", more than the " +
+                       number_text(std::floor(memory / gib)) +
+                       " GiB of this computer. Increase Reservoir/Element size, or reduce Reservoir/Length. "
+                       "The defaults are a sixteenth of the depth, and two depths.");
+    if (reservoir.is_acoustic() && factor > 2. * largest_mass_factor) // certainly, before the mesh is built
+    {
+      const double       more = 1.1 * std::sqrt(factor / largest_mass_factor);
+      std::ostringstream text;
+      text.precision(3);
+      text << "Compressible water: the time step of " << dt
+           << " s is above the critical time step of the water, about " << step << " s (" << size
+           << "). It would need about " << factor
+           << " times the mass of the water (limit 1.3). Set \"Dynamics/Steps per sample\" to "
+           << std::ceil(more) * scene.steps_per_sample << ", or \"Reservoir/Element size\" to " << more * h
+           << ".";
+      throw InputError(text.str());
+    }
+    if (n > 1e6)
+      log.line("Water     %s; the mesh takes about %.0f s, a time step %.1g s", size,
+               seconds_per_water_node * n, seconds_per_water_step * n);
   }
 
   std::string in_words(const MemoryNeed &need)

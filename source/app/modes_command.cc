@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/memory_need.h>
 #include <voussoir/app/modes_command.h>
 #include <voussoir/app/modes_damping.h>
 #include <voussoir/app/spectrum_analysis.h>
@@ -146,7 +147,7 @@ namespace Voussoir
         modes[k].add("damping",
                      damping.ratio(k) + (radiation.empty() || std::isnan(radiation[k]) ? 0. : radiation[k]));
       std::vector<Warning> warnings;
-      for (const std::string &warning : dam.mesh_warnings)
+      for (const std::string &warning : dam.facts.warnings)
         warnings.push_back({Warning::Kind::physics, warning, ""});
       warnings.insert(warnings.end(), dam.scene.warnings.begin(), dam.scene.warnings.end());
       if (const std::string warning = damping.warning(); !warning.empty())
@@ -179,8 +180,10 @@ namespace Voussoir
       spectrum = choose_spectrum(scene, spectrum_choice);
     if (!directory.empty())
       make_directory(directory);
+    Log quiet(true);
+    check_water_size(scene, 0., quiet);
     const Dam dam(scene, true);
-    for (const std::string &warning : dam.mesh_warnings)
+    for (const std::string &warning : dam.facts.warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
     std::vector<double>            radiation;
     const std::vector<NaturalMode> modes = modes_of(dam, count, radiation);

@@ -2,6 +2,7 @@
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/run_report.h>
 #include <voussoir/base/python_script.h>
+#include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/motion/motion.h>
@@ -56,6 +57,18 @@ namespace Voussoir
             "constant");
     }
 
+    /** Prints where the probes are. Throws InputError, see probe_place(). */
+    void report_probes(const Dam &dam, Log &log)
+    {
+      for (const auto &[name, given] : dam.scene.output.probe_places())
+      {
+        const PlaceInDam probe = probe_place(*dam.model, name, given);
+        log.line("Probe     %s at %s in %s, %.2g m from the given point", name.c_str(),
+                 place(probe.point).c_str(), physical_name(3, probe.block).c_str(),
+                 distance_between(probe.point, given));
+      }
+    }
+
     /** Prints the peak values of the motion, and a warning for each entry that may be an oversight. */
     void report_motion_and_warnings(const RunState &run, Log &log)
     {
@@ -98,14 +111,15 @@ namespace Voussoir
             "face. Increase the level, in the axes of the scene, or set Reservoir/Density to 0.",
             scene.reservoir.level);
       const auto &crest = dam.geometry->joints;
-      if (dam.n_joints > 1 && crest.front().arc_length > crest[dam.n_joints - 1].arc_length)
+      if (dam.layout.n_contraction > 1 &&
+          crest.front().arc_length > crest[dam.layout.n_contraction - 1].arc_length)
         log.warn({Warning::Kind::input,
                   "the joints are numbered from the left bank (y > 0) to the right bank, also in "
                   "Joints/Overrides and in all results. Usually the numbers begin at the right bank.",
                   "Mesh/File"});
-      if (scene.mesh.source == "file" && !dam.ungrouped.empty())
-        log.line("warning: %s", dam.ungrouped.c_str());
-      for (const std::string &warning : dam.mesh_warnings)
+      if (scene.mesh.source == "file" && !dam.facts.ungrouped.empty())
+        log.line("warning: %s", dam.facts.ungrouped.c_str());
+      for (const std::string &warning : dam.facts.warnings)
         log.line("warning: %s", warning.c_str());
       if (!scene.statics.stages.empty())
         for (const std::string &warning : StaticPath(dam).warnings())
@@ -128,10 +142,10 @@ namespace Voussoir
 
     void report_joints(const Dam &dam, Log &log)
     {
-      if (dam.tied)
+      if (dam.layout.tied)
       {
-        log.line("Joints    %u joint%s, tied: the monolithic dam", dam.n_joints,
-                 dam.n_joints == 1 ? "" : "s");
+        log.line("Joints    %u joint%s, tied: the monolithic dam", dam.layout.n_contraction,
+                 dam.layout.n_contraction == 1 ? "" : "s");
         return;
       }
       const JointParameters &joints = dam.scene.joints;
@@ -148,12 +162,13 @@ namespace Voussoir
           laws << ", " << value << text;
       std::string others;
       for (const std::string kind : {"lift", "base"})
-        if (const auto n = std::count_if(dam.joints.begin(), dam.joints.end(),
+        if (const auto n = std::count_if(dam.layout.joints.begin(), dam.layout.joints.end(),
                                          [&](const Joint &joint) { return joint.kind() == kind; });
             n > 0)
           others += ", " + std::to_string(n) + " " + kind + " joint" + (n == 1 ? "" : "s");
-      log.line("Joints    %u joint%s%s, %zu pairs, law %s", dam.n_joints, dam.n_joints == 1 ? "" : "s",
-               others.c_str(), dam.structure.pairs.size(), laws.str().c_str());
+      log.line("Joints    %u joint%s%s, %zu pairs, law %s", dam.layout.n_contraction,
+               dam.layout.n_contraction == 1 ? "" : "s", others.c_str(), dam.structure.pairs.size(),
+               laws.str().c_str());
     }
 
   } // namespace
@@ -164,20 +179,20 @@ namespace Voussoir
     const Scene       &scene = run.scene();
     const unsigned int n_nodes = dam.structure.n_nodes();
     log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
-             scene.name.c_str(), dam.n_cells, scene.elements.degree, 3 * n_nodes, dam.n_monoliths, dam.volume,
-             dam.crest_length);
+             scene.name.c_str(), dam.facts.n_cells, scene.elements.degree, 3 * n_nodes, dam.facts.n_monoliths,
+             dam.facts.volume, dam.facts.crest_length);
     if (scene.mesh.plane_strain)
       log.line(
           "          plane strain: no displacements along y; forces and masses are those of a slice of %.4g m",
-          dam.crest_length);
+          dam.facts.crest_length);
     log.line("Concrete  %s", in_words(scene.concrete).c_str());
-    report_zones(log, dam.concrete_zones, "Concrete/Zones");
+    report_zones(log, dam.facts.concrete_zones, "Concrete/Zones");
     if (dam.has_sustained_moduli())
       log.line("          sustained moduli in the static state: %.4g of Young's modulus%s",
                scene.sustained_ratio(), sustained_rock(dam).c_str());
     report_joints(dam, log);
     dam.foundation->report(log, run.grid());
-    report_zones(log, dam.rock_zones, "Foundation/Zones");
+    report_zones(log, dam.facts.rock_zones, "Foundation/Zones");
     log.line("Damping   Rayleigh, C = a M + b K with a = %.4g 1/s, b = %.4g s (%.3g %% at %g and %g Hz)",
              scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
              scene.damping.frequency_1, scene.damping.frequency_2);
@@ -187,17 +202,18 @@ namespace Voussoir
       dam.water->report(log, scene.output.pressure_depths);
     else
       log.line("Water     level %g m; added mass %s, %.4g kg along x", scene.reservoir.level,
-               scene.reservoir.name_of_mass().c_str(), dam.added_mass);
+               scene.reservoir.name_of_mass().c_str(), dam.facts.added_mass);
     if (dam.water_volumes != nullptr && !dam.water)
       log.line("          the volumes \"water\" of the mesh file are not used: Reservoir/Model is %s",
                scene.reservoir.model.c_str());
     report_loads(dam, log);
     report_wedges(dam, log);
+    report_probes(dam, log);
     report_motion_and_warnings(run, log);
     report_motion_notes(run, log);
     if (validate)
     {
-      std::istringstream groups(dam.groups);
+      std::istringstream groups(dam.facts.groups);
       const char        *title = "Groups";
       for (std::string row; std::getline(groups, row); title = "")
         log.line("%-9s %s", title, row.c_str());

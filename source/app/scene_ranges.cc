@@ -4,6 +4,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/base/units.h>
+#include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/temperature.h>
 
 #include <algorithm>
@@ -35,7 +36,7 @@ namespace Voussoir
     std::ostringstream text;
     text << used.what << " is " << value << unit << ": usual is " << range.low << " to " << range.high << unit
          << ".";
-    if (const auto example = examples.find(used.unit); example != examples.end())
+    if (const auto example = examples.find(used.unit); !used.in_file && example != examples.end())
       text << " A value may carry its unit, as in \"" << example->second << "\".";
     else if (used.unit == "degC" && value > 200.)
       text << " Is it in kelvin? 0 degC are 273.15 K.";
@@ -161,6 +162,7 @@ namespace Voussoir
       const char *entry, *unit;
       UsualRange  range;
       NamedValues (*values)(const Scene &); ///< may throw InputError
+      bool in_file = false;                 ///< see UsedValue
     };
     const std::vector<ListedNumbers> listed_numbers = {
         {"Joints/Initial gaps", "m", {1e-5, .05, true}, gaps},
@@ -168,7 +170,33 @@ namespace Voussoir
         {"Statics/Stages", "Pa", {1e4, 5e6, true}, pressures_of_grout},
         {"Loads/Crest line", "N/m", {1e3, 5e6, true}, crest_line},
         {"Loads/Concentrated", "N", {1e3, 1e9, true}, concentrated_forces},
-        {"Reservoir/Table", "kg/m^2", {1e3, 1e6}, largest_added_mass}};
+        {"Reservoir/Table", "kg/m^2", {1e3, 1e6}, largest_added_mass, true}};
+
+    /** Usual range of a number of each part of the rock wedges. */
+    template <class T> struct WedgeColumn
+    {
+      const char *name, *unit;
+      UsualRange  range;
+      double T::*number;
+    };
+    const std::vector<WedgeColumn<RockWedge>> wedge_columns = {
+        {"density", "kg/m^3", {2000., 3500.}, &RockWedge::density},
+        {"volume", "m^3", {10., 1e8}, &RockWedge::volume}};
+    const std::vector<WedgeColumn<WedgePlane>> plane_columns = {
+        {"area", "m^2", {1., 1e6}, &WedgePlane::area},
+        {"friction", "-", {.2, 3.}, &WedgePlane::friction},
+        {"cohesion", "Pa", {1e3, 1e7, true}, &WedgePlane::cohesion},
+        {"uplift", "Pa", {1e3, 1e7, true}, &WedgePlane::uplift}};
+
+    template <class T>
+    void add_columns(const std::vector<WedgeColumn<T>> &columns, const T &part, const std::string &name,
+                     std::vector<UsedValue> &values)
+    {
+      const std::string entry = "Limits/Wedges";
+      for (const WedgeColumn<T> &column : columns)
+        values.push_back({entry + ": " + column.name + " of " + name, entry, column.unit, part.*column.number,
+                          entry, &column.range, true});
+    }
   } // namespace
 
   std::vector<UsedValue> values_of_sources(const Scene &scene)
@@ -182,8 +210,8 @@ namespace Voussoir
       try
       {
         for (const auto &[name, value] : row.values(scene))
-          values.push_back(
-              {std::string(row.entry) + ": " + name, row.entry, row.unit, value, row.entry, &row.range});
+          values.push_back({std::string(row.entry) + ": " + name, row.entry, row.unit, value, row.entry,
+                            &row.range, row.in_file});
       }
       catch (const InputError &) // reported where the numbers are used
       {
@@ -192,8 +220,14 @@ namespace Voussoir
     {
       if (!scene.loads.temperature.table.empty() && scene.loads.factor("temperature") != 0.)
         add_table(scene, values);
+      for (const RockWedge &wedge : rock_wedges(scene))
+      {
+        add_columns(wedge_columns, wedge, "wedge " + wedge.name, values);
+        for (const WedgePlane &plane : wedge.planes)
+          add_columns(plane_columns, plane, "plane " + plane.name + " of wedge " + wedge.name, values);
+      }
     }
-    catch (const InputError &) // reported where the load is computed
+    catch (const InputError &) // reported where the numbers are used
     {
     }
     return values;

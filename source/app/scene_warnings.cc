@@ -74,6 +74,9 @@ namespace Voussoir
         {"Output/Block forces is false",
          [](const Scene &s) { return !s.output.block_forces; },
          {"Limits/Base friction", "Limits/Base cohesion"}},
+        {"there is no Limits/Wedges",
+         [](const Scene &s) { return s.limits.wedges.empty(); },
+         {"Limits/Wedge safety"}},
         {"the dam has no joints (Mesh/Arch210/Joints or Mesh/Arcs/Joints)",
          is_generated_without_joints,
          {"Joints/", "Loads/Uplift/Joints", "Loads/Uplift/In earthquake", "Loads/Uplift/Below closed part",
@@ -162,6 +165,10 @@ namespace Voussoir
     /** Returns the reason why the entry has no effect, or an empty string if it has an effect. */
     std::string why_idle(const Scene &scene, const std::string &name)
     {
+      static const EntryNames of_modes = {"Damping/",       "Motion/Factor",  "Motion/Scale x",
+                                          "Motion/Scale y", "Motion/Scale z", "Motion/Vertical ratio"};
+      if (scene.is_for_modes && includes(of_modes, name))
+        return "";
       if (name.rfind("Foundation/", 0) == 0 && !foundation_reads(scene.foundation.model, name))
         return "Foundation/Model is " + scene.foundation.model;
       for (const IdleEntries &rule : rules())

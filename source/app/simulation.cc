@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/memory_need.h>
 #include <voussoir/app/run_report.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/blas_buffers.h>
@@ -108,6 +109,7 @@ namespace Voussoir
     motion = make_motion(scene.motion, scene.directory).refined(scene.steps_per_sample).scaled(factor);
     n_steps = scene.motion.source == "none" || factor == 0. ? 0 : motion.acceleration.size() - 1;
     rock_wedges(scene); // throws InputError before the dam is assembled
+    check_water_size(scene, n_steps > 0 ? motion.dt : 0., log);
     make_dam();
     const Dam &dam = *state.dam;
     loaded_wedges(scene, *dam.model); // throws InputError

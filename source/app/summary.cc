@@ -38,33 +38,33 @@ namespace Voussoir
       std::vector<double>
           bases; // monoliths of the base joints, whose numbers follow those of the other joints
       std::vector<std::string> names;
-      for (const Joint &joint : dam.joints)
+      for (const Joint &joint : dam.layout.joints)
       {
         names.push_back(joint.name());
         if (joint.is_base())
           bases.push_back(joint.monolith_2());
       }
       Json json;
-      json.add("cells", dam.n_cells)
+      json.add("cells", dam.facts.n_cells)
           .add("degree", dam.scene.elements.degree)
           .add("nodes", dam.structure.n_nodes())
           .add("dofs", 3. * dam.structure.n_nodes())
-          .add("monoliths", dam.n_monoliths)
-          .add("joints", dam.n_joints)
+          .add("monoliths", dam.facts.n_monoliths)
+          .add("joints", dam.layout.n_contraction)
           .add_texts("joint_names", names)
           .add_list("base_joints", bases)
           .add("pairs", dam.structure.pairs.size())
-          .add("volume", dam.volume)
-          .add("crest_length", dam.crest_length);
+          .add("volume", dam.facts.volume)
+          .add("crest_length", dam.facts.crest_length);
       return json;
     }
 
     Json json_of_zones(const Dam &dam)
     {
       Json json;
-      json.add("concrete", json_of(dam.concrete_zones));
-      if (!dam.rock_zones.empty())
-        json.add("rock", json_of(dam.rock_zones));
+      json.add("concrete", json_of(dam.facts.concrete_zones));
+      if (!dam.facts.rock_zones.empty())
+        json.add("rock", json_of(dam.facts.rock_zones));
       return json;
     }
 
@@ -74,7 +74,7 @@ namespace Voussoir
       Json        json;
       json.add_list("crest_point", Vector3{{crown[0], crown[1], crown[2]}})
           .add_list("crest_displacement", statics.crown)
-          .add_list("self_weight_crest_displacement", dam.self_weight_crown)
+          .add_list("self_weight_crest_displacement", dam.staged.crown)
           .add("newton_iterations", statics.contact.iterations)
           .add("path", std::string(name(statics.contact.path)))
           .add("residual", statics.contact.residual)
@@ -129,7 +129,7 @@ namespace Voussoir
       else
         json.add("added_mass", reservoir.kind())
             .add("factor", reservoir.factor)
-            .add("added_mass_x", dam.added_mass);
+            .add("added_mass_x", dam.facts.added_mass);
       return json;
     }
 
@@ -179,13 +179,13 @@ namespace Voussoir
     const Dam               &dam = *run.dam;
     const Scene             &scene = run.scene();
     std::vector<std::string> groups;
-    std::istringstream       rows(dam.groups);
+    std::istringstream       rows(dam.facts.groups);
     for (std::string row; std::getline(rows, row);)
       groups.push_back(row);
     Json json, unknowns;
     unknowns.add("monoliths", 3. * dam.structure.n_nodes()).add("joints", 3. * dam.structure.pairs.size());
     json.add("scene", scene.name)
-        .add("law", dam.tied ? "tied" : scene.joints.model)
+        .add("law", dam.layout.tied ? "tied" : scene.joints.model)
         .add("foundation", scene.foundation.model)
         .add("version", version())
         .add("revision", revision())
@@ -220,7 +220,7 @@ namespace Voussoir
     const Assessment assessment = assessment_of(run, observers);
     Json             summary;
     summary.add("scene", scene.name)
-        .add("law", dam.tied ? "tied" : scene.joints.model)
+        .add("law", dam.layout.tied ? "tied" : scene.joints.model)
         .add("foundation", scene.foundation.model)
         .add("version", version())
         .add("revision", revision())

@@ -83,6 +83,14 @@ namespace Voussoir
         throw InputError("The table of Reservoir/Table, " + file + ", ends at the depth " +
                          number_text(curve.x.back()) + " m, but the upstream face has " +
                          number_text(deepest) + " m. Extend the table, or correct Reservoir/Water level.");
+      if (deepest > 0. && (curve.x.back() > 2. * deepest || curve.at(0.) > curve.at(deepest)))
+        throw InputError(
+            "The table of Reservoir/Table, " + file + ", has depths to " + number_text(curve.x.back()) +
+            " m, and the masses " + number_text(curve.at(0.)) + " kg/m^2 at the surface and " +
+            number_text(curve.at(deepest)) + " kg/m^2 at the bottom of the reservoir, " +
+            number_text(deepest) +
+            " m below. Are its columns exchanged, or its depths elevations? Write depths below the "
+            "water level, to twice this depth at most, then masses.");
       return [&reservoir, curve](const Vector3 &x)
       {
         const double depth = reservoir.level - x[2];
@@ -225,6 +233,30 @@ namespace Voussoir
   {
     const WaterRow &row = row_of_water(reservoir);
     return row.per_area == nullptr ? 0. : row.add(model, row.per_area(model, reservoir), structure);
+  }
+
+  std::string added_mass_warning(const SolidModel &model, const ReservoirParameters &reservoir)
+  {
+    if (row_of_water(reservoir).per_area != table_of_mass)
+      return "";
+    ReservoirParameters usual = reservoir;
+    usual.factor = 1.;
+    const MassPerArea of_table = table_of_mass(model, reservoir), formula = westergaard(model, usual);
+    double            total = 0., of_formula = 0.;
+    for_faces(model, PhysicalId::upstream, 8,
+              [&](const FEFaceValues<3> &values, const auto &)
+              {
+                for (const unsigned int q : values.quadrature_point_indices())
+                {
+                  const Vector3 x = to_vector(values.quadrature_point(q));
+                  total += of_table(x) * values.JxW(q);
+                  of_formula += formula(x) * values.JxW(q);
+                }
+              });
+    if (total <= 3. * of_formula && of_formula <= 3. * total)
+      return "";
+    return "The added mass of Reservoir/Table is " + number_text(total / of_formula) +
+           " times that of Westergaard's formula, usually 1/3 to 3 times. Check its unit, kg/m^2.";
   }
 
   std::vector<double> added_mass_per_area(const SolidModel &model, const ReservoirParameters &reservoir)

@@ -230,13 +230,13 @@ namespace Voussoir
     {
       const auto stands = [&](const unsigned int node)
       { return node == rigid_ground || block_at.count(node) > 0; };
-      if (dam.joints[pairs[p].joint].is_base() &&
+      if (dam.layout.joints[pairs[p].joint].is_base() &&
           !joint_water.empty()) // the water in open pairs is a part of the reaction
         add_crack_water(pairs[p], joint_water[p] * pairs[p].area);
       const bool first = stands(pairs[p].node_1), second = stands(pairs[p].node_2);
       if (first == second || (part != nullptr && !part->contains(pairs[p].place)))
         continue;
-      const Joint       &joint = dam.joints[pairs[p].joint];
+      const Joint       &joint = dam.layout.joints[pairs[p].joint];
       const unsigned int b = block_of(first ? joint.monolith_1() : joint.monolith_2());
       if (b == of_block.size())
         continue;
@@ -249,9 +249,9 @@ namespace Voussoir
   {
     std::vector<double> result(of_block.size(), 0.);
     for (std::size_t p = 0; p < pressure.size(); ++p)
-      if (const Pair &pair = dam.structure.pairs[p]; dam.joints[pair.joint].is_base())
+      if (const Pair &pair = dam.structure.pairs[p]; dam.layout.joints[pair.joint].is_base())
         for (std::size_t b = 0; b < of_block.size(); ++b)
-          if (of_block[b].monolith == dam.joints[pair.joint].monolith_2())
+          if (of_block[b].monolith == dam.layout.joints[pair.joint].monolith_2())
             result[b] += pressure[p] * pair.area * dot(pair.frame[0], of_block[b].axes[2]);
     return result;
   }
@@ -259,7 +259,7 @@ namespace Voussoir
   void BaseForces::add_crack_water(const Pair &pair, const double force)
   {
     for (BlockBase &base : of_block)
-      if (base.monolith == dam.joints[pair.joint].monolith_2())
+      if (base.monolith == dam.layout.joints[pair.joint].monolith_2())
         base.uplift += force * dot(pair.frame[0], base.axes[2]);
   }
 
@@ -338,7 +338,7 @@ namespace Voussoir
     for (unsigned int i = 0; i < model.n_nodes(); ++i)
       if (const unsigned int b = block[i]; b != rigid_ground)
         add_force(constant[b], share[i], to(of_block[b].centroid, model.points[i]),
-                  get(dam.staged_reaction, i));
+                  get(dam.staged.reaction, i));
   }
 
   std::vector<Wrench> BaseForces::of(const StepOfDam &step) const

@@ -14,7 +14,7 @@ namespace Voussoir
     of_step = change;
     for (const StaticLoad &load : dam.loads)
       for (std::size_t p = 0; load.name == uplift_load && p < pairs.size(); ++p)
-        if (dam.joints[pairs[p].joint].is_base())
+        if (dam.layout.joints[pairs[p].joint].is_base())
           at_rest[p] = dot(pairs[p].frame[0], get(load.force, pairs[p].node_2)) / pairs[p].area;
   }
 
@@ -48,7 +48,7 @@ namespace Voussoir
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
       const bool is_new =
-          open[p] && statics.pairs[p] != PairState::open && dam.joints[pairs[p].joint].is_base();
+          open[p] && statics.pairs[p] != PairState::open && dam.layout.joints[pairs[p].joint].is_base();
       const bool has_water = reached[p] && (is_new || dam.scene.loads.uplift.joints);
       change[p] = is_full ? (has_water ? full(p) - at_rest[p] : 0.) : is_new ? -at_rest[p] : 0.;
     }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <deal.II/fe/mapping_q1.h>
+
 #include <voussoir/base/error.h>
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/solid/solid_grid.h>
@@ -107,64 +109,94 @@ namespace Voussoir
     return result;
   }
 
-  unsigned int nearest_node(const SolidModel &model, const Vector3 &p)
+  Vector3 PlaceInDam::interpolated(const std::function<Vector3(unsigned int)> &at_node) const
   {
-    return std::min_element(model.points.begin(), model.points.end(),
-                            [&](const Vector3 &a, const Vector3 &b)
-                            { return distance_between(a, p) < distance_between(b, p); }) -
-           model.points.begin();
-  }
-
-  unsigned int probe_node(const SolidModel &model, const std::string &name, const Vector3 &p)
-  {
-    return node_at(model, "Entry \"Output/Probes\": probe \"" + name + "\"", p);
+    if (parts.size() == 1)
+      return at_node(parts[0].first);
+    Vector3 sum{};
+    for (const auto &[node, part] : parts)
+    {
+      const Vector3 value = at_node(node);
+      for (unsigned int c = 0; c < 3; ++c)
+        sum[c] += part * value[c];
+    }
+    return sum;
   }
 
   namespace
   {
-    /** Returns the node at the position of @p node whose monolith has the element centre nearest to @p p. If
-     * @p p equals this position, the result is @p node. */
-    unsigned int on_side_of(const SolidModel &model, const unsigned int node, const Vector3 &p)
+    constexpr double same_place = 1e-6; ///< tolerance for equal positions [m]
+
+    /** Returns the point of a cell next to @p p. A node there has the whole part. */
+    PlaceInDam place_in(const SolidModel &model, const DoFHandler<3>::active_cell_iterator &cell,
+                        const Vector3 &p)
     {
-      const double                         same = 1e-6; // tolerance for equal positions [m]
+      const auto                          &mapping = StaticMappingQ1<3>::mapping;
       std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
-      unsigned int                         result = node;
-      double                               nearest = std::numeric_limits<double>::infinity();
-      for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
+      cell->get_dof_indices(dofs);
+      PlaceInDam result{p, static_cast<int>(cell->material_id()), {}};
+      for (const unsigned int node : dofs)
+        if (distance_between(model.points[node], p) < same_place)
+        {
+          result.parts = {{node, 1.}};
+          return result;
+        }
+      Point<3> unit;
+      try
       {
-        cell->get_dof_indices(dofs);
-        for (const auto other : dofs)
-          if (distance_between(model.points[other], model.points[node]) < same &&
-              distance_between(to_vector(cell->center()), p) < nearest)
-          {
-            nearest = distance_between(to_vector(cell->center()), p);
-            result = other;
-          }
+        unit = mapping.transform_real_to_unit_cell(cell, to_point(p));
       }
-      return distance_between(model.points[node], p) < same ? node : result;
+      catch (const Mapping<3>::ExcTransformationFailed &) // far outside
+      {
+        unit = cell->real_to_unit_cell_affine_approximation(to_point(p));
+      }
+      unit = GeometryInfo<3>::project_to_unit_cell(unit);
+      result.point = to_vector(mapping.transform_unit_to_real_cell(cell, unit));
+      for (unsigned int i = 0; i < dofs.size(); ++i)
+        if (const double part = model.grid->fe.shape_value(i, unit); std::abs(part) > 1e-12)
+          result.parts.emplace_back(dofs[i], part);
+      return result;
     }
   } // namespace
 
-  unsigned int node_at(const SolidModel &model, const std::string &what, const Vector3 &p)
+  std::vector<PlaceInDam> places_at(const SolidModel &model, const std::string &what, const Vector3 &p)
   {
-    const unsigned int                   node = nearest_node(model, p);
-    std::vector<types::global_dof_index> dofs(model.grid->fe.n_dofs_per_cell());
-    double                               element = 0.; // largest extent of its elements [m]
+    std::map<int, PlaceInDam> of_block; // the nearest of each block
+    PlaceInDam                nearest;
+    double                    far = std::numeric_limits<double>::infinity(), element = 0.;
     for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
     {
-      cell->get_dof_indices(dofs);
-      if (std::find(dofs.begin(), dofs.end(), node) != dofs.end())
-        for (const auto other : dofs)
-          element = std::max(element, distance_between(model.points[node], model.points[other]));
+      if (distance_between(to_vector(cell->center()), p) - cell->diameter() > far + same_place)
+        continue;
+      const PlaceInDam now = place_in(model, cell, p);
+      const double     distance = distance_between(now.point, p);
+      if (distance < far)
+      {
+        nearest = now;
+        far = distance;
+        element = cell->diameter();
+      }
+      if (const auto [found, is_new] = of_block.emplace(now.block, now);
+          !is_new && distance < distance_between(found->second.point, p))
+        found->second = now;
     }
-    if (const double far = distance_between(model.points[node], p); far > element)
+    if (far > element)
     {
       std::ostringstream message;
       message << what << " at " << place(p) << " is " << far << " m from the dam, more than an element ("
-              << element << " m). Its nearest node is at " << place(model.points[node])
+              << element << " m). The nearest point of the dam is " << place(nearest.point)
               << ". Use a point of the dam, in the axes of the input file.";
       throw InputError(message.str());
     }
-    return on_side_of(model, node, p);
+    std::vector<PlaceInDam> result;
+    for (const auto &one : of_block)
+      if (distance_between(one.second.point, p) <= far + same_place)
+        result.push_back(one.second);
+    return result;
+  }
+
+  PlaceInDam probe_place(const SolidModel &model, const std::string &name, const Vector3 &p)
+  {
+    return places_at(model, "Entry \"Output/Probes\": probe \"" + name + "\"", p).front();
   }
 } // namespace Voussoir

@@ -23,9 +23,11 @@ namespace Voussoir
     }
   } // namespace
 
-  void add_traction(const SolidModel &model, const int surface,
-                    const std::function<Vector3(double z, const Vector3 &normal)> &traction, Unknowns &load)
+  Vector3 add_traction(const SolidModel &model, const int surface,
+                       const std::function<Vector3(double z, const Vector3 &normal)> &traction,
+                       Unknowns                                                      &load)
   {
+    Vector3 on_fixed{};
     for_faces(model, surface, 8,
               [&](const FEFaceValues<3> &values, const auto &dofs)
               {
@@ -34,11 +36,15 @@ namespace Voussoir
                   const Tensor<1, 3> n = values.normal_vector(q);
                   const Vector3      t = traction(values.quadrature_point(q)[2], {{n[0], n[1], n[2]}});
                   for (unsigned int i = 0; i < dofs.size(); ++i)
-                    if (const unsigned int e = model.equation[dofs[i]]; e != rigid_ground)
-                      for (unsigned int c = 0; c < 3; ++c)
-                        load[3 * std::size_t(e) + c] += t[c] * values.shape_value(i, q) * values.JxW(q);
+                    for (unsigned int c = 0; c < 3; ++c)
+                    {
+                      const unsigned int e = model.equation[dofs[i]];
+                      (e == rigid_ground ? on_fixed[c] : load[3 * std::size_t(e) + c]) +=
+                          t[c] * values.shape_value(i, q) * values.JxW(q);
+                    }
                 }
               });
+    return on_fixed;
   }
 
   Vector3 water_traction(const Scene &scene, const double factor, const double z, const Vector3 &normal)

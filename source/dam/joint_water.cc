@@ -136,7 +136,7 @@ namespace Voussoir
       of_node[dam.model->equation[i]] = in_thickness[i];
     std::vector<double> place;
     for (const Pair &pair : dam.structure.pairs)
-      place.push_back(dam.joints[pair.joint].is_base() ? of_node.at(pair.node_2) : -1.);
+      place.push_back(dam.layout.joints[pair.joint].is_base() ? of_node.at(pair.node_2) : -1.);
     const TailWaterParameters &tail = scene.loads.tail_water;
     const double weight = tail.density * scene.statics.gravity * scene.loads.factor("tail water") *
                           scene.loads.factor("uplift");

@@ -180,6 +180,8 @@ namespace Voussoir
     {
       for (double &f : load.force)
         f *= load.factor;
+      for (double &f : load.on_fixed)
+        f *= load.factor;
       for (Stress &stress : load.stress)
         for (float &s : stress)
           s *= static_cast<float>(load.factor);
@@ -248,7 +250,7 @@ namespace Voussoir
         if (load->add)
           load->add(scene, site, result.back());
         else
-          add_traction(
+          result.back().on_fixed = add_traction(
               site.model, load->surface,
               [&](const double z, const Vector3 &normal) { return load->traction(scene, 1., z, normal); },
               result.back().force);
@@ -277,7 +279,7 @@ namespace Voussoir
 
   Vector3 StaticLoad::resultant() const
   {
-    Vector3 sum{};
+    Vector3 sum = on_fixed;
     for (std::size_t k = 0; k < force.size(); ++k)
       sum[k % 3] += force[k];
     return sum;

@@ -5,6 +5,7 @@
 #include <voussoir/solid/solid_grid.h>
 #include <voussoir/solid/solid_model.h>
 
+#include <map>
 #include <set>
 #include <utility>
 
@@ -16,20 +17,26 @@ namespace Voussoir
   {
     for (const auto &entry : loads.point_loads())
     {
-      const Vector3     &x = entry.second.place;
-      const unsigned int nearest =
-          node_at(model, "Entry \"Loads/Concentrated\": load \"" + entry.first + "\"", x);
-      std::set<unsigned int> sharing; // equations of the nodes at this position
-      for (unsigned int i = 0; i < model.n_nodes(); ++i)
-        if (distance_between(model.points[i], model.points[nearest]) <
-            1e-6 * (1. + norm(model.points[nearest])))
-          sharing.insert(model.equation[i]);
-      if (sharing.count(rigid_ground) > 0)
+      const Vector3 &x = entry.second.place;
+      std::set<std::map<unsigned int, double>>
+           sharing; // parts of the equations, once if blocks are tied there
+      bool is_held = true;
+      for (const PlaceInDam &place :
+           places_at(model, "Entry \"Loads/Concentrated\": load \"" + entry.first + "\"", x))
+      {
+        std::map<unsigned int, double> of_block;
+        for (const auto &[node, part] : place.parts)
+          of_block[model.equation[node]] += part;
+        is_held = is_held && of_block.size() == 1 && of_block.count(rigid_ground) > 0;
+        sharing.insert(of_block);
+      }
+      if (is_held)
         throw InputError("Entry \"Loads/Concentrated\": load \"" + entry.first +
                          "\" is on the fixed base and has no effect. Move it, or remove it.");
-      for (const unsigned int e : sharing)
-        for (unsigned int c = 0; c < 3; ++c)
-          load[3 * std::size_t(e) + c] += entry.second.force[c] / sharing.size();
+      for (const auto &of_block : sharing)
+        for (const auto &[e, part] : of_block)
+          for (unsigned int c = 0; e != rigid_ground && c < 3; ++c)
+            load[3 * std::size_t(e) + c] += part * entry.second.force[c] / sharing.size();
     }
   }
 

@@ -223,6 +223,9 @@ namespace Voussoir
       for (RockWedge &wedge : wedges)
         if (wedge.name == name)
           return wedge;
+        else if (edit_distance(wedge.name, name) == 0) // which ignores case
+          error("wedge \"" + name + "\" has the name of wedge \"" + wedge.name +
+                "\" but for capitals. Write the planes of one wedge with one name, or use another name.");
       wedges.push_back({name, {}});
       return wedges.back();
     }

@@ -241,8 +241,8 @@ namespace Voussoir
     prm.enter_subsection("Output");
     prm.add_parameter(
         "Probes", probes,
-        "Points whose displacement and absolute acceleration are written to history.csv, as \"name: x y z; name: x y z\" [m]. The "
-        "nearest node is used.",
+        "Points whose displacement and absolute acceleration are written to history.csv, as \"name: x y z; name: x y z\" [m]. Values "
+        "are interpolated in the element; at a joint it is that towards the right bank.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter(
         "Pressure depths", pressure_depths,

@@ -43,9 +43,9 @@ namespace Voussoir
     bool needs_path(const Dam &dam)
     {
       for (std::size_t p = 0; p < dam.structure.pairs.size() && !dam.scene.statics.stages.empty(); ++p)
-        if (const JointLaw &law = *dam.laws.of_pair[p]; dam.is_cast(dam.structure.pairs[p]) &&
-                                                        !dam.is_tied(p) && law.flat_friction() != 0. &&
-                                                        (law.n_memory() > 0 || !law.is_tangentially_tied()))
+        if (const JointLaw &law = *dam.layout.laws.of_pair[p];
+            dam.layout.is_cast(dam.structure.pairs[p]) && !dam.is_tied(p) && law.flat_friction() != 0. &&
+            (law.n_memory() > 0 || !law.is_tangentially_tied()))
           return true;
       return false;
     }
@@ -78,14 +78,14 @@ namespace Voussoir
     if (has(stages, StaticStage::Kind::fill) && dam.scene.loads.factor("water") == 0.)
       throw InputError(entry + " fills the reservoir, but the load combination leaves the water out. Add "
                                "it to \"Loads/Combinations\", or remove the levels.");
-    if (has_lifts && dam.n_joints == 0)
+    if (has_lifts && dam.layout.n_contraction == 0)
       throw InputError(entry +
                        " grouts joints, but the dam has no contraction joints. Remove the lifts (grout), or "
                        "set the number of joints of the mesh.");
     if (has_lifts &&
-        std::all_of(dam.joints.begin(), dam.joints.end(),
+        std::all_of(dam.layout.joints.begin(), dam.layout.joints.end(),
                     [&](const Joint &joint)
-                    { return !joint.is_contraction() || dam.joint_models[joint.number - 1] == "tied"; }))
+                    { return !joint.is_contraction() || dam.layout.models[joint.number - 1] == "tied"; }))
       throw InputError(entry + " grouts joints, but all contraction joints are tied. Set another "
                                "\"Joints/Model\", or remove the lifts.");
   }
@@ -142,11 +142,11 @@ namespace Voussoir
     const std::string entry = "Entry \"Statics/Stages\" cuts ";
     StaticPart       &part =
         add_part("cut " + stage.joint + in_words(" by ", 1e3 * stage.value) + " mm", at, grouted);
-    part.cut = dam.joints_named(stage.joint, entry);
+    part.cut = dam.layout.named(stage.joint, entry);
     part.width = stage.value;
     for (const std::size_t j : part.cut)
-      if (dam.joint_models[j] == "tied")
-        throw InputError(entry + dam.joints[j].name() +
+      if (dam.layout.models[j] == "tied")
+        throw InputError(entry + dam.layout.joints[j].name() +
                          ", but this joint is tied. Set another model (\"Joints/Model\" or "
                          "\"Joints/Overrides\"), or remove the cut.");
   }
@@ -189,7 +189,7 @@ namespace Voussoir
   {
     double bottom = endless, top = -endless;
     for (const Pair &pair : dam.structure.pairs)
-      if (!dam.is_cast(pair))
+      if (!dam.layout.is_cast(pair))
       {
         bottom = std::min(bottom, pair.place[2]);
         top = std::max(top, pair.place[2]);
@@ -250,8 +250,8 @@ namespace Voussoir
   {
     const double      z = dam.structure.pairs[pair].place[2];
     const StaticPart &part = parts[stage];
-    const bool is_fluid = z > part.grouted && z <= part.fluid_to && !dam.is_cast(dam.structure.pairs[pair]) &&
-                          !dam.is_tied(pair);
+    const bool        is_fluid = z > part.grouted && z <= part.fluid_to &&
+                          !dam.layout.is_cast(dam.structure.pairs[pair]) && !dam.is_tied(pair);
     return is_fluid ? share * part.pressure : 0.;
   }
 
@@ -263,10 +263,10 @@ namespace Voussoir
 
   PairLaws laws_up_to(const double grouted, const Dam &dam, const PairLaws &ungrouted)
   {
-    PairLaws laws = dam.laws;
+    PairLaws laws = dam.layout.laws;
     for (std::size_t p = 0; p < laws.of_pair.size(); ++p)
       if (const Pair &pair = dam.structure.pairs[p];
-          pair.place[2] > grouted && !dam.is_cast(pair) && !dam.is_tied(p))
+          pair.place[2] > grouted && !dam.layout.is_cast(pair) && !dam.is_tied(p))
         laws.of_pair[p] = ungrouted.of_pair[p];
     return laws;
   }

@@ -91,7 +91,7 @@ namespace Voussoir
       {
         Vector3 normal{};
         for (const Pair &pair : dam.structure.pairs)
-          if (dam.joints[pair.joint].is_base() && pair.node_2 >= body->first_node &&
+          if (dam.layout.joints[pair.joint].is_base() && pair.node_2 >= body->first_node &&
               pair.node_2 < body->first_node + body->n_nodes())
             for (unsigned int c = 0; c < 3; ++c)
               normal[c] += pair.area * pair.frame[0][c];
@@ -126,14 +126,15 @@ namespace Voussoir
                                               (scene.concrete.density * dam.size * dam.size));
         state.force.assign(3 * dam.structure.pairs.size(), 0.);
         state.closed = gap = state.force;
+        state.removed.assign(dam.structure.pairs.size(), 0.);
         state.u.assign(3 * dam.structure.n_nodes(), 0.);
-        state.memory = dam.laws.initial_memory();
+        state.memory = dam.layout.laws.initial_memory();
         state.contact.converged = true;
-        for (std::size_t j = 0; j < dam.joints.size(); ++j)
+        for (std::size_t j = 0; j < dam.layout.joints.size(); ++j)
           ungrouted.of_joint.push_back(make_fja_law(0.));
         ungrouted.assign(dam.structure);
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
-          widen(p, dam.initial_gaps[dam.structure.pairs[p].joint]);
+          widen(p, dam.layout.gaps[dam.structure.pairs[p].joint]);
         if (scene.loads.uplift.joints && scene.loads.factor("uplift") != 0. && scene.reservoir.density > 0.)
           water = std::make_unique<JointWater>(joint_water(dam));
       }
@@ -266,8 +267,9 @@ namespace Voussoir
         if (width == 0. || dam.is_tied(p))
           return;
         state.closed[3 * p] -= width;
+        state.removed[p] += width;
         gap[3 * p] += width;
-        dam.laws.lose_bond(p, state.memory);
+        dam.layout.laws.lose_bond(p, state.memory);
       }
 
       /** Grouts the pairs before a stage: their gap is zero in the current state. The grout that sets carries the force of
@@ -278,16 +280,17 @@ namespace Voussoir
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
         {
           const Pair &pair = dam.structure.pairs[p];
-          if (pair.place[2] <= path.grouted_before(stage) || pair.place[2] > grouted || dam.is_cast(pair))
+          if (pair.place[2] <= path.grouted_before(stage) || pair.place[2] > grouted ||
+              dam.layout.is_cast(pair))
             continue;
           if (stage > 0)
             state.force[3 * p] += path.grout_pressure(stage - 1, 1., p) * pair.area;
           Vector3 now{};
-          if (const ElasticLaw *law = dam.laws.of_pair[p]->elastic_law())
+          if (const ElasticLaw *law = dam.layout.laws.of_pair[p]->elastic_law())
             now[0] = -law->compliance(pair.area)[0] * state.force[3 * p];
           set(state.closed, p, dam.structure.jump(pair, state.u) - now);
           set(gap, p, now);
-          dam.laws.restore_bond(p, state.memory);
+          dam.layout.laws.restore_bond(p, state.memory);
         }
         make_system();
       }
@@ -359,7 +362,7 @@ namespace Voussoir
         std::vector<double>       of_body(structure.bodies.size(), 0.);
         std::vector<const Body *> moving;
         for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-          if (const Pair &pair = structure.pairs[p]; dam.joints[pair.joint].is_base())
+          if (const Pair &pair = structure.pairs[p]; dam.layout.joints[pair.joint].is_base())
           {
             double &moved = of_body[structure.body_of(pair.node_2)];
             moved = std::max(moved, norm(structure.jump(pair, state.u)));
@@ -513,7 +516,8 @@ namespace Voussoir
                         n_of(PairState::slip),
                         water ? water->n_wet() : 0};
         for (std::size_t p = 0; p < dam.structure.pairs.size(); ++p)
-          if (const Pair &pair = dam.structure.pairs[p]; pair.place[2] <= part.grouted || dam.is_cast(pair))
+          if (const Pair &pair = dam.structure.pairs[p];
+              pair.place[2] <= part.grouted || dam.layout.is_cast(pair))
             step.opening = std::max(step.opening, gap[3 * p]);
         state.steps.push_back(step);
       }
@@ -566,7 +570,7 @@ namespace Voussoir
           joint = moved;
           where = pair.place;
         }
-      const double       crest = norm(crown), weight = norm(dam.self_weight_crown);
+      const double       crest = norm(crown), weight = norm(dam.staged.crown);
       std::ostringstream text;
       text.precision(4);
       double limit = largest_share;

@@ -64,71 +64,16 @@ namespace Voussoir
   }
 
   Impact::Impact(const Structure &structure, const JointLaws &laws, const ImpactRule rule)
-      : structure(structure), laws(laws), rule(rule)
+      : PairClusters(structure), structure(structure), laws(laws), rule(rule)
   {
-    for (const Matrix3 &m : structure.mass)
-      inverse_mass.push_back(inverse(m));
-    for (const Pair &pair : structure.pairs)
-      pair_inverse.push_back(between(pair, pair));
-    std::vector<bool> shares(structure.pairs.size(), false);
-    for (const auto &pairs : clusters_of(structure.pairs))
-    {
-      add_cluster(pairs);
-      for (const unsigned int p : pairs)
-        shares[p] = true;
-    }
-    for (unsigned int p = 0; p < shares.size(); ++p)
-      if (!shares[p])
-        single.push_back(p);
-  }
-
-  /** Returns G_p M^-1 G_q^T. */
-  Matrix3 Impact::between(const Pair &p, const Pair &q) const
-  {
-    Matrix3 H{};
-    for (const unsigned int node : {p.node_1, p.node_2})
-      for (const unsigned int other : {q.node_1, q.node_2})
-        if (node == other && node != rigid_ground)
-        {
-          const double sign = (node == p.node_2) == (node == q.node_2) ? 1. : -1.;
-          for (unsigned int j = 0; j < 3; ++j)
-          {
-            const Vector3 Mq = inverse_mass[node] * q.frame[j];
-            for (unsigned int i = 0; i < 3; ++i)
-              H[3 * i + j] += sign * dot(p.frame[i], Mq);
-          }
-        }
-    return H;
-  }
-
-  void Impact::add_cluster(const std::vector<unsigned int> &pairs)
-  {
-    const Pair &one = structure.pairs[pairs[0]], &two = structure.pairs[pairs[1]];
-    if (rule != ImpactRule::mean_force && rule != ImpactRule::none)
-      throw InputError(
-          "The joints " + std::to_string(one.joint + 1) + " and " + std::to_string(two.joint + 1) +
-          " share the node at " + place(one.place) +
-          ", which requires \"Dynamics/Impact\" = mean-force. Set this entry, or change the joints in the "
-          "mesh so that they do not cross.");
-    Cluster cluster{pairs, {}};
-    for (const unsigned int p : pairs)
-      for (const unsigned int q : pairs)
-        cluster.H.push_back(between(structure.pairs[p], structure.pairs[q]));
-    clusters.push_back(std::move(cluster));
-  }
-
-  void Impact::add_impulse(const Pair &pair, const Vector3 &f, Unknowns &v) const
-  {
-    Vector3 x;
-    for (unsigned int c = 0; c < 3; ++c)
-      x[c] = pair.frame[0][c] * f[0] + pair.frame[1][c] * f[1] + pair.frame[2][c] * f[2];
-    for (const unsigned int node : {pair.node_1, pair.node_2})
-      if (node != rigid_ground)
-      {
-        const Vector3 kick = inverse_mass[node] * x;
-        for (unsigned int c = 0; c < 3; ++c)
-          v[3 * node + c] += (node == pair.node_2 ? 1. : -1.) * kick[c];
-      }
+    if (clusters.empty() || rule == ImpactRule::mean_force || rule == ImpactRule::none)
+      return;
+    const Pair &one = structure.pairs[clusters[0].pairs[0]], &two = structure.pairs[clusters[0].pairs[1]];
+    throw InputError(
+        "The joints " + std::to_string(one.joint + 1) + " and " + std::to_string(two.joint + 1) +
+        " share the node at " + place(one.place) +
+        ", which requires \"Dynamics/Impact\" = mean-force. Set this entry, or change the joints in the "
+        "mesh so that they do not cross.");
   }
 
   void Impact::correct_velocity(const JointSystem &system, const std::vector<PairHistory> &histories,
@@ -170,7 +115,7 @@ namespace Voussoir
         for (std::size_t j = 0; j < n; ++j)
           if (j != i)
             add(jump, cluster.between(i, j) * (step.kept[j] - step.applied[j]));
-        const Matrix3 &H = pair_inverse[p];
+        const Matrix3 &H = of_pair(p);
         const Vector3  next =
             step.rows[i] == ImpactRows::normal
                  ? law.stop_normal(H, jump, step.applied[i], step.active[i])
@@ -200,12 +145,12 @@ namespace Voussoir
       step.applied.push_back(get(impulse, p));
       step.jump.push_back(structure.jump(structure.pairs[p], v));
       ImpactRows rows = closed || law.is_tangentially_tied()
-                            ? stiff_rows(law, pair_inverse[p], histories[p].area, dt)
+                            ? stiff_rows(law, of_pair(p), histories[p].area, dt)
                             : ImpactRows::none;
       if (rows == ImpactRows::normal)
         active &= 1;
       else if (rows == ImpactRows::all && system.states()[p] == PairState::slip &&
-               slides_on(law, pair_inverse[p], step.jump.back(), step.applied.back(), get(change, p), active))
+               slides_on(law, of_pair(p), step.jump.back(), step.applied.back(), get(change, p), active))
         rows = ImpactRows::normal;
       step.rows.push_back(rows);
       step.active.push_back(active);
@@ -249,14 +194,14 @@ namespace Voussoir
     if (!closed && !law.is_tangentially_tied())
       return;
     const Vector3    jump = structure.jump(pair, v), applied = get(impulse, p);
-    const ImpactRows rows = stiff_rows(law, pair_inverse[p], history.area, dt);
+    const ImpactRows rows = stiff_rows(law, of_pair(p), history.area, dt);
     if (rows == ImpactRows::none)
       return;
     if (rule == ImpactRule::paper)
     {
       const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
       const bool    face = system.active_surfaces()[p] & 1; // not for a pair with flank contact only
-      const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
+      const Vector3 f = tie_rows(of_pair(p), jump, {{face, tied, tied}});
       add_impulse(pair, f, v);
       for (unsigned int c = 0; c < 3; ++c)
         impulse[3 * p + c] += f[c];
@@ -265,25 +210,25 @@ namespace Voussoir
     const unsigned char active = system.active_surfaces()[p];
     if (rows == ImpactRows::normal ||
         (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
-         slides_on(law, pair_inverse[p], jump, applied, get(change, p), active)))
+         slides_on(law, of_pair(p), jump, applied, get(change, p), active)))
     {
       // The mean friction of the step has an error of second order. Friction from the velocity at the end
       // would have one of first order.
       const Vector3 kept =
-          law.stop_normal(pair_inverse[p], jump, applied, rows == ImpactRows::normal ? active & 1 : active);
+          law.stop_normal(of_pair(p), jump, applied, rows == ImpactRows::normal ? active & 1 : active);
       add_impulse(pair, kept - applied, v);
       set(impulse, p, kept);
       return;
     }
     // Velocity without the joint forces of this step, then the impulse that the law allows.
-    const Vector3 lost = pair_inverse[p] * applied;
-    Vector3 allowed = law.solve_impulse(pair_inverse[p], jump - lost, history, system.active_surfaces()[p]);
+    const Vector3 lost = of_pair(p) * applied;
+    Vector3       allowed = law.solve_impulse(of_pair(p), jump - lost, history, system.active_surfaces()[p]);
     if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
     {
       // If loads tear at a pair more than the impact, the new friction impulse could supply more energy than
       // the pair has dissipated. In this case only the normal row is corrected, which
       // always dissipates energy.
-      const Vector3 f = allowed - applied, gained = pair_inverse[p] * f;
+      const Vector3 f = allowed - applied, gained = of_pair(p) * f;
       double        gain = 0., size = 0.;
       for (unsigned int c = 0; c < 3; ++c)
       {
@@ -291,7 +236,7 @@ namespace Voussoir
         size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
       }
       if (gain > -dot(applied, get(change, p)) / dt + 1e-12 * size)
-        allowed = law.stop_normal(pair_inverse[p], jump, applied, system.active_surfaces()[p]);
+        allowed = law.stop_normal(of_pair(p), jump, applied, system.active_surfaces()[p]);
     }
     add_impulse(pair, allowed - applied, v);
     set(impulse, p, allowed);
@@ -302,7 +247,7 @@ namespace Voussoir
   {
     Unknowns a(nodal_force.size()), result(force.size(), 0.);
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)
-      set(a, i, inverse_mass[i] * get(nodal_force, i));
+      set(a, i, inverse_masses()[i] * get(nodal_force, i));
     if (rule == ImpactRule::paper)
       for (std::size_t p = 0; p < structure.pairs.size(); ++p)
         add_impulse(structure.pairs[p], get(force, p), a);
@@ -321,14 +266,14 @@ namespace Voussoir
       {
         const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
         const bool    face = system.active_surfaces()[p] & 1;
-        const Vector3 f = tie_rows(pair_inverse[p], jump, {{face, tied, tied}});
+        const Vector3 f = tie_rows(of_pair(p), jump, {{face, tied, tied}});
         add_impulse(pair, f, a);
         for (unsigned int c = 0; c < 3; ++c)
           result[3 * p + c] = force[3 * p + c] + f[c];
       }
       else if (closed || law.is_tangentially_tied())
       {
-        const Vector3 f = law.solve_acceleration(pair_inverse[p], jump, structure.jump(pair, v), stick_speed,
+        const Vector3 f = law.solve_acceleration(of_pair(p), jump, structure.jump(pair, v), stick_speed,
                                                  histories[p], system.active_surfaces()[p]);
         add_impulse(pair, f, a);
         set(result, p, f);

@@ -9,6 +9,7 @@
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/arrival.h>
 #include <voussoir/rock/rock_part.h>
+#include <voussoir/solid/critical_step.h>
 
 #include <algorithm>
 #include <cmath>

@@ -318,6 +318,8 @@ namespace Voussoir
             }
             add_product<true>(K.value[k], x.value[i], y.value[at[j]]);
           }
+          if (const auto spring = smoothing.springs.find(node); spring != smoothing.springs.end())
+            add_product<true>(spring->second, x.value[i], y.value[i]);
         }
         for (const unsigned int node : y.nodes)
           at[node] = none;

@@ -80,6 +80,29 @@ namespace Voussoir
     };
   } // namespace
 
+  NodeSprings springs_of_far_rock(const RockModel &model, const Vector3 &centre)
+  {
+    NodeSprings result;
+    for (const BoundaryFace &face : model.faces)
+    {
+      const double nu = face.material.poisson, G = face.material.young / (2. + 2. * nu),
+                   along = (2. - nu) / (1. - nu), across = 2. * (1. - 2. * nu) / (3. - 4. * nu);
+      for (const unsigned int node : face.nodes)
+      {
+        Matrix3     &spring = result[node];
+        const double r = norm(model.points[node] - centre);
+        for (unsigned int a = 0; a < 3; ++a)
+          for (unsigned int b = 0; b < 3; ++b)
+          {
+            const double normal = face.normal[a] * face.normal[b];
+            spring[3 * a + b] +=
+                G / r * (along * normal + across * ((a == b ? 1. : 0.) - normal)) * face.area / 4.;
+          }
+      }
+    }
+    return result;
+  }
+
   RockStaticState::RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes,
                                    const double ratio, const bool has_footings)
       : model(model), base_nodes(base_nodes), ratio(ratio), has_footings(has_footings)
@@ -111,11 +134,12 @@ namespace Voussoir
   {
     if (!rock)
     {
-      std::vector<bool> held(model.points.size(), false);
-      for (const BoundaryFace &face : model.faces)
-        for (const unsigned int node : face.nodes)
-          held[node] = true;
-      rock = std::make_unique<RockStatics>(model, held);
+      Vector3 centre{};
+      for (const BaseNode &base_node : base_nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          centre[c] += model.points[base_node.rock][c] / base_nodes.size();
+      rock = std::make_unique<RockStatics>(model, std::vector<bool>(model.points.size(), false),
+                                           springs_of_far_rock(model, centre));
       log.line("Rock      static solution with %u unknowns; multigrid set up in %.1f s", rock->n_unknowns(),
                rock->seconds_setup());
     }

@@ -9,10 +9,19 @@
 
 namespace Voussoir
 {
-  RockStatics::RockStatics(const RockModel &model, const std::vector<bool> &held,
+  namespace
+  {
+    double component(const Matrix3 &a, const std::size_t k, const Unknowns &x)
+    {
+      const double *row = a.data() + 3 * (k % 3), *at = x.data() + 3 * (k / 3);
+      return row[0] * at[0] + row[1] * at[1] + row[2] * at[2];
+    }
+  } // namespace
+
+  RockStatics::RockStatics(const RockModel &model, const std::vector<bool> &held, NodeSprings given,
                            const MakeCoarseRock &make_coarse_solver)
-      : aggregates(model.stiffness, model.points, held, strong_coupling()), n_nodes(model.stiffness.n_rows()),
-        split(n_nodes)
+      : aggregates(model.stiffness, model.points, held, strong_coupling()), springs(std::move(given)),
+        n_nodes(model.stiffness.n_rows()), split(n_nodes)
   {
     const Stopwatch watch;
     for (unsigned int a = 0; a < aggregates.n(); ++a)
@@ -52,7 +61,11 @@ namespace Voussoir
       for (std::size_t k = K.start[i]; k < K.start[i + 1] && split.owner(i) == Ranks::rank(); ++k)
         if (K.column[k] == i && aggregates.of_node(i) != RockAggregates::none)
         {
-          const Matrix3 block = Voussoir::inverse(K.value[k]);
+          Matrix3 block = K.value[k];
+          if (const auto spring = springs.find(i); spring != springs.end())
+            for (unsigned int c = 0; c < 9; ++c)
+              block[c] += spring->second[c];
+          block = Voussoir::inverse(block);
           std::copy(block.begin(), block.end(), all.begin() + 9 * std::size_t(i));
         }
     split.gather(all, 9);
@@ -64,6 +77,9 @@ namespace Voussoir
   void RockStatics::multiply(const Unknowns &x, Unknowns &y) const
   {
     stiffness->multiply(x.data(), y.data());
+    for (const auto &[node, spring] : springs)
+      for (std::size_t k = 3 * std::size_t(node); k < 3 * std::size_t(node) + 3; ++k)
+        y[k] += component(spring, k, x);
     everywhere(
         [&](const std::size_t k)
         {
@@ -90,15 +106,6 @@ namespace Voussoir
     return sum;
   }
 
-  namespace
-  {
-    double component(const Matrix3 &a, const std::size_t k, const Unknowns &x)
-    {
-      const double *row = a.data() + 3 * (k % 3), *at = x.data() + 3 * (k / 3);
-      return row[0] * at[0] + row[1] * at[1] + row[2] * at[2];
-    }
-  } // namespace
-
   /** Lanczos method. Power iteration converges slowly for distorted elements, and the smoother amplifies
    * modes above an eigenvalue that is too small. */
   double RockStatics::largest_eigenvalue() const
@@ -123,7 +130,7 @@ namespace Voussoir
         break; // an invariant space
       if (!(size > 0.))
         throw ComputationError(
-            n_free == 0 ? "All rock nodes are on the surface \"artificial boundary\". Refine the rock."
+            n_free == 0 ? "All rock nodes are held."
                         : "The stiffness matrix of the rock (" + std::to_string(n_free) +
                               " unknowns) is not positive definite. Connect all parts of the rock to each "
                               "other and to the surface \"artificial boundary\", and improve distorted "
@@ -150,7 +157,7 @@ namespace Voussoir
     for (unsigned int a = 0; a < aggregates.n(); ++a)
       if (split.owner(seeds[a]) == Ranks::rank())
         mine.push_back(a);
-    const RockSmoothing      smoothing{model.stiffness, inverse, 4. / (3. * eigenvalue)};
+    const RockSmoothing      smoothing{model.stiffness, springs, inverse, 4. / (3. * eigenvalue)};
     std::vector<CoarseBlock> blocks = coarse_rows(aggregates, smoothing, mine);
     constexpr std::size_t    length = sizeof(CoarseBlock) / sizeof(double); // sent as doubles
     static_assert(sizeof(CoarseBlock) == 19 * sizeof(double), "no bytes between the blocks");

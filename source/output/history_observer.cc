@@ -20,17 +20,14 @@ namespace Voussoir
     const SolidModel  &model = *run.dam->model;
     crown_is_at_joint = model.equation[geometry.crown_left] != model.equation[geometry.crown];
     table.add("time", [this] { return run.integrator->state().time; });
-    declare_point("crest", geometry.crown);
+    declare_point("crest", {{}, 0, {{geometry.crown, 1.}}});
     if (crown_is_at_joint)
-      declare_point("crest_left", geometry.crown_left);
+      declare_point("crest_left", {{}, 0, {{geometry.crown_left, 1.}}});
     table.add_vector("base_acceleration", [this] { return run.motion.sample(run.step); });
     if (!run.dam->base_is_held())
       table.add_vector("base", [this] { return run.dam->base_motion(run.integrator->state().u); });
     for (const auto &probe : run.scene().output.probe_places())
-    {
-      const Vector3 &p = probe.second;
-      declare_point(probe.first, probe_node(model, probe.first, p));
-    }
+      declare_point(probe.first, probe_place(model, probe.first, probe.second));
     declare_accelerations();
     for (const double depth : run.scene().output.pressure_depths)
       if (const AcousticWater *water = run.dam->water.get())
@@ -38,18 +35,26 @@ namespace Voussoir
                   [water, point = water->point_at(depth)] { return point.value(water->pressure()); });
   }
 
-  void HistoryObserver::declare_point(const std::string &name, const unsigned int node)
+  void HistoryObserver::declare_point(const std::string &name, const PlaceInDam &place)
   {
-    history_columns.add_vector(name, [this, node] { return run.relative_to_base(node); });
+    history_columns.add_vector(name,
+                               [this, place] {
+                                 return place.interpolated([this](const unsigned int node)
+                                                           { return run.relative_to_base(node); });
+                               });
     points.push_back(name);
-    nodes.push_back(node);
+    places.push_back(place);
   }
 
   void HistoryObserver::declare_accelerations()
   {
     for (std::size_t k = 0; k < points.size(); ++k)
       history_columns.add_vector(points[k] + "_acceleration",
-                                 [this, k] { return run.absolute_acceleration(nodes[k]); });
+                                 [this, k]
+                                 {
+                                   return places[k].interpolated([this](const unsigned int node)
+                                                                 { return run.absolute_acceleration(node); });
+                                 });
   }
 
   void HistoryObserver::declare_energy()
@@ -57,7 +62,7 @@ namespace Voussoir
     TableColumns &table = energy_columns;
     const auto    now = [this]() -> const Energy    &{ return run.integrator->state().energy; };
     const auto    first = [this]() -> const Energy    &{ return run.integrator->initial_energy(); };
-    const auto   &laws = run.dam->laws;
+    const auto   &laws = run.dam->layout.laws;
     table.add("time", [this] { return run.integrator->state().time; });
     table.add("kinetic", [=] { return now().kinetic; });
     table.add("strain", [=] { return now().strain - first().strain; });

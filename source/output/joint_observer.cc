@@ -14,7 +14,7 @@ namespace Voussoir
     joints.reach = JointReach(*run.dam->model, structure.pairs);
     joints.points =
         JointPoints(*run.dam->model, structure.pairs, structure.n_joints, scene.limits.waterstop_depth);
-    joints.keys = KeyForces(structure, run.dam->joint_models, scene.joints.friction);
+    joints.keys = KeyForces(structure, run.dam->layout.models, scene.joints.friction);
   }
 
   void JointObserver::record()
@@ -34,8 +34,16 @@ namespace Voussoir
   {
     flush();
     joints.maxima().write(directory + "/joints.csv");
-    if (!run.dam->structure.pairs.empty())
-      joints.points.write(directory, *run.dam->geometry);
+    std::vector<Vector3> at_start;
+    for (const Pair &pair : run.dam->structure.pairs)
+    {
+      const std::size_t p = at_start.size();
+      const double      jump = run.dam->structure.jump(pair, run.statics.u)[0];
+      at_start.push_back({{run.statics.force[3 * p] / pair.area, jump - run.statics.closed[3 * p],
+                           jump + run.statics.removed[p]}});
+    }
+    if (!at_start.empty())
+      joints.points.write(directory, *run.dam->geometry, at_start);
     joints.pressures().write(directory + "/joint_pressures.csv");
   }
 
@@ -67,7 +75,8 @@ namespace Voussoir
                            [](const auto &a, const auto &b) { return a.opening < b.opening; });
       const auto slip = std::max_element(residuals.begin(), residuals.end(),
                                          [](const auto &a, const auto &b) { return a.slip < b.slip; });
-      const auto name = [&](const auto &joint) { return run.dam->joints[joint - residuals.begin()].name(); };
+      const auto name = [&](const auto &joint)
+      { return run.dam->layout.joints[joint - residuals.begin()].name(); };
       log.line("Residual  at t = %.2f s: opening %.2f mm (%s), slip %.2f mm (%s)",
                run.end_of_part(part) * run.motion.dt, 1e3 * opening->opening, name(opening).c_str(),
                1e3 * slip->slip, name(slip).c_str());

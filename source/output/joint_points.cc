@@ -170,17 +170,20 @@ namespace Voussoir
     return result;
   }
 
-  void JointPoints::write(const std::string &directory, const DamGeometry &geometry) const
+  void JointPoints::write(const std::string &directory, const DamGeometry &geometry,
+                          const std::vector<Vector3> &at_start) const
   {
     OutputFile points(directory + "/joint_points.csv"), cells(directory + "/joint_cells.csv");
     points.precision(8);
-    points << "joint,x,y,z,s,depth,area,max_opening,max_slip,residual_opening,residual_slip\n";
+    points << "joint,x,y,z,s,depth,area,max_opening,max_slip,residual_opening,residual_slip,static_pressure,"
+              "static_opening,static_distance\n";
     for (std::size_t p = 0; p < pairs.size(); ++p)
     {
       const Vector3 &x = pairs[p].place;
       points << pairs[p].joint + 1 << ',' << x[0] << ',' << x[1] << ',' << x[2] << ','
              << geometry.arc_length(x) << ',' << depth[p] << ',' << pairs[p].area << ',' << opening[p] << ','
-             << slip[p] << ',' << std::max(now[p][0], 0.) << ',' << length_of_slip(now[p]) << '\n';
+             << slip[p] << ',' << std::max(now[p][0], 0.) << ',' << length_of_slip(now[p]) << ','
+             << at_start[p][0] << ',' << at_start[p][1] << ',' << at_start[p][2] << '\n';
     }
     cells << "joint,n0,n1,n2,n3\n";
     for (const Quad &quad : quads)

@@ -29,7 +29,7 @@ namespace Voussoir
         neighbour->start(motion, grid(), statics.u);
     Support *const support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
     integrator = make_integrator("trapezoidal",
-                                 {dam->structure, dam->laws, parameters, motion.dt,
+                                 {dam->structure, dam->layout.laws, parameters, motion.dt,
                                   impact_rule(scene().impact_rule), support, scene().has_single_factors()});
     Unknowns load = statics.constant_load();
     if (n_steps > 0)

@@ -22,7 +22,8 @@ namespace Voussoir
       const bool   known = scene.output.knows_tractions();
       Tractions    tractions(
              *dam.model, dam.structure, [](int, double, const Vector3 &) { return Vector3{}; }, {}, {},
-          dam.added_mass > 0. ? added_mass_per_area(*dam.model, scene.reservoir) : std::vector<double>());
+          dam.facts.added_mass > 0. ? added_mass_per_area(*dam.model, scene.reservoir)
+                                       : std::vector<double>());
       const StressRecovery             recovery(*dam.model, dam.materials, scene.elements.incompatible_modes,
                                     known ? tractions.faces : std::vector<NodeFace>(), known);
       std::vector<std::vector<Stress>> result;

@@ -138,7 +138,7 @@ namespace Voussoir
     std::ostringstream text;
     text.precision(3);
     text << "The later results are invalid. Use ";
-    if (!dam.tied && dam.scene.impact_rule != "mean-force")
+    if (!dam.layout.tied && dam.scene.impact_rule != "mean-force")
       text << "\"Dynamics/Impact\" = mean-force, or ";
     text << "a smaller time step (\"Dynamics/Steps per sample\"), and check \"Motion/Unit\" and the "
             "peak values of the motion (voussoir motion).";

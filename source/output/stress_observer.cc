@@ -13,8 +13,8 @@ namespace Voussoir
   {
     std::vector<double> water_mass(const Dam &dam)
     {
-      return dam.added_mass > 0. ? added_mass_per_area(*dam.model, dam.scene.reservoir)
-                                 : std::vector<double>();
+      return dam.facts.added_mass > 0. ? added_mass_per_area(*dam.model, dam.scene.reservoir)
+                                       : std::vector<double>();
     }
   } // namespace
 

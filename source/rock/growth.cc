@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/rock/growth.h>
+#include <voussoir/solid/critical_step.h>
 
 #include <algorithm>
 #include <cmath>

@@ -20,7 +20,7 @@ namespace Voussoir
     struct Invariants
     {
       explicit Invariants(const Stress &s)
-          : mean((s[0] + s[1] + s[2]) / 3.), x(s[0] - mean), y(s[1] - mean), z(s[2] - mean)
+          : mean((double(s[0]) + s[1] + s[2]) / 3.), x(s[0] - mean), y(s[1] - mean), z(s[2] - mean)
       {
         const double shear = double(s[3]) * s[3] + double(s[4]) * s[4] + double(s[5]) * s[5];
         p = std::sqrt((x * x + y * y + z * z + 2. * shear) / 6.);

@@ -7,8 +7,6 @@
 #include <voussoir/water/acoustic_water.h>
 #include <voussoir/water/water_size.h>
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -29,37 +27,13 @@ namespace Voussoir
       n_records
     };
 
-    constexpr double largest_mass_factor = 1.3, noticeable_mass_factor = 1.02;
+    constexpr double noticeable_mass_factor = 1.02;
 
     /** Returns a size with three digits [m]. */
     double rounded(const double h)
     {
       const double unit = std::pow(10., std::floor(std::log10(h)) - 2.);
       return std::round(h / unit) * unit;
-    }
-
-    /** Throws InputError if the nodes of a channel do not fit into the memory. */
-    void check_size(const std::vector<WetQuad> &faces, const double level, const WaterProperties &properties)
-    {
-      double area = 0.;
-      for (const WetQuad &face : faces)
-      {
-        const auto &c = face.corners;
-        const auto [low, high] = std::minmax({c[0][2], c[1][2], c[2][2], c[3][2]});
-        area += .5 * std::abs(cross(c[2] - c[0], c[3] - c[1])[0]) *
-                std::clamp((level - low) / std::max(high - low, 1e-9), 0., 1.);
-      }
-      const double bytes = bytes_per_water_node *
-                           channel_nodes(area, properties.depth, properties.length, properties.h),
-                   memory = double(sysconf(_SC_PHYS_PAGES)) * sysconf(_SC_PAGESIZE), gib = std::pow(2., 30);
-      if (bytes > memory)
-        throw InputError(
-            "Mesh of the water: elements of " + number_text(properties.h) + " m in a channel of " +
-            number_text(properties.length) + " m need about " + number_text(std::ceil(bytes / gib)) +
-            " GiB, more than the " + number_text(std::floor(memory / gib)) +
-            " GiB of this computer. Increase Reservoir/Element size, or reduce Reservoir/Length. The "
-            "defaults are " +
-            number_text(properties.depth / 16.) + " m and " + number_text(2. * properties.depth) + " m.");
     }
 
     /** Throws InputError for water elements that are too large, with a size that works, if there is one. */
@@ -92,7 +66,6 @@ namespace Voussoir
         return read_volumes(*volumes, wet_quads(dam), level, properties);
       try
       {
-        check_size(wet_quads(dam), level, properties);
         WaterMesh mesh = make_channel(WaterSection(wet_quads(dam), level, properties.h), properties);
         WaterCoupling(dam, mesh, level, properties.h); // throws CoarseWater
         return mesh;

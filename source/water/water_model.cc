@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace Voussoir
 {
@@ -100,14 +99,15 @@ namespace Voussoir
   /** Creates the sparsity pattern of K. */
   void WaterModel::make_pattern(const WaterMesh &mesh)
   {
-    std::vector<std::set<unsigned int>> rows(mesh.points.size());
+    std::vector<std::vector<unsigned int>> rows(mesh.points.size());
     for (const WaterMesh::Cell &nodes : mesh.cells)
       for (const unsigned int i : nodes)
-        rows[i].insert(nodes.begin(), nodes.end());
+        rows[i].insert(rows[i].end(), nodes.begin(), nodes.end());
     start = {0};
-    for (const auto &row : rows)
+    for (auto &row : rows)
     {
-      column.insert(column.end(), row.begin(), row.end());
+      std::sort(row.begin(), row.end());
+      column.insert(column.end(), row.begin(), std::unique(row.begin(), row.end()));
       start.push_back(column.size());
     }
     value.assign(column.size(), 0.);

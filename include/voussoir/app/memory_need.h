@@ -2,6 +2,7 @@
 #ifndef voussoir_memory_need_h
 #define voussoir_memory_need_h
 
+#include <voussoir/base/log.h>
 #include <voussoir/dam/scene.h>
 
 namespace Voussoir
@@ -17,6 +18,10 @@ namespace Voussoir
 
   /** Returns the estimated memory of a run. */
   MemoryNeed memory_need(const Scene &scene, const HexMesh &mesh);
+
+  /** Prints the size of a large generated mesh of the water, before it is built. @p dt: time step of the earthquake [s]; 0:
+   * none. Throws InputError if the mesh exceeds the memory, or if its critical time step is certainly too small. */
+  void check_water_size(const Scene &scene, double dt, Log &log);
 
   /** Returns a text such as "about 1.2 GiB, and 0.4 GiB more ...", for each rank. */
   std::string in_words(const MemoryNeed &need);

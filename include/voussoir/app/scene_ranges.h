@@ -26,7 +26,8 @@ namespace Voussoir
     std::string place; ///< such as "scene.prm, line 7", or the entry of a list
 
     const UsualRange *of_list =
-        nullptr; ///< usual range of a number in a list; null: that of the entry @p range
+        nullptr;          ///< usual range of a number in a list; null: that of the entry @p range
+    bool in_file = false; ///< a number in a file of columns carries no unit
   };
 
   /** Returns the number of an entry. */

@@ -4,6 +4,8 @@
 
 #include <voussoir/solid/solid_model.h>
 
+#include <functional>
+
 namespace Voussoir
 {
   /** Crest, crown and upper ends of the joints, for results. */
@@ -41,15 +43,24 @@ namespace Voussoir
     std::vector<double>  at;   ///< arc length at the points of @p edge [m]
   };
 
-  /** Returns the node nearest to a point. */
-  unsigned int nearest_node(const SolidModel &model, const Vector3 &p);
+  /** Point in an element of the dam. */
+  struct PlaceInDam
+  {
+    Vector3                                      point{};   ///< [m]
+    int                                          block = 0; ///< physical id of the volume
+    std::vector<std::pair<unsigned int, double>> parts;     ///< nodes, and their shape functions at the point
 
-  /** Returns the node nearest to the probe @p name at @p p. Throws InputError if the distance exceeds the
-   * element size, which is the largest distance of this node to the other nodes of its elements. */
-  unsigned int probe_node(const SolidModel &model, const std::string &name, const Vector3 &p);
+    /** Returns the interpolated value of a vector. @p at_node: returns its value at a node. */
+    Vector3 interpolated(const std::function<Vector3(unsigned int)> &at_node) const;
+  };
 
-  /** Returns the same for @p what, the begin of the message: "Entry ... : probe ...". */
-  unsigned int node_at(const SolidModel &model, const std::string &what, const Vector3 &p);
+  /** Returns the points of the dam nearest to @p p, in the elements: one for each block that meets there, in the
+   * order of their numbers, from the right bank. Throws InputError, which begins with @p what, if they are farther away
+   * than the diagonal of their element. */
+  std::vector<PlaceInDam> places_at(const SolidModel &model, const std::string &what, const Vector3 &p);
+
+  /** Returns the first of these points for the probe @p name. */
+  PlaceInDam probe_place(const SolidModel &model, const std::string &name, const Vector3 &p);
 } // namespace Voussoir
 
 #endif

@@ -10,9 +10,10 @@
 namespace Voussoir
 {
   /** Adds the nodal forces [N] of a traction [Pa] on the faces of a surface. Each face has 8 x 8 quadrature
-   * points, because a level may cut through a face. */
-  void add_traction(const SolidModel &model, int surface,
-                    const std::function<Vector3(double z, const Vector3 &normal)> &traction, Unknowns &load);
+   * points, because a level may cut through a face. Returns the resultant on fixed nodes [N]. */
+  Vector3 add_traction(const SolidModel &model, int surface,
+                       const std::function<Vector3(double z, const Vector3 &normal)> &traction,
+                       Unknowns                                                      &load);
 
   // Tractions of loads times a factor [Pa]. @p z: height of the point [m]; @p normal: outward normal.
 

@@ -25,7 +25,9 @@ namespace Voussoir
     Unknowns            force;     ///< three values per free node [N]
     std::vector<Stress> stress;    ///< initial stress per node of the model [Pa], or empty
 
-    /** Returns the sum of all forces [N]. */
+    Vector3 on_fixed{}; ///< resultant of a pressure on fixed nodes, without elements of force [N]
+
+    /** Returns the sum of all forces, with those of a pressure on fixed nodes [N]. */
     Vector3 resultant() const;
   };
 

@@ -7,9 +7,9 @@
 
 namespace Voussoir
 {
-  /** Adds the forces of "Loads/Concentrated" to @p load [N]. Each force acts on the nearest node. Nodes at
-   * the same position, as at joints, receive equal parts. Throws InputError if the distance to the dam
-   * exceeds the element size, or if the node is fixed. */
+  /** Adds the forces of "Loads/Concentrated" to @p load [N]. Each force acts on the nodes of its element by
+   * the shape functions. At a joint the blocks receive equal parts. Throws InputError if the distance to the
+   * dam exceeds the element size, or if all these nodes are fixed. */
   void add_concentrated(const SolidModel &model, const LoadParameters &loads, Unknowns &load);
 
   /** Adds the force per length of "Loads/Crest line" to @p load [N]. It acts along the edge of the crest with

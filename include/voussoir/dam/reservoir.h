@@ -59,6 +59,9 @@ namespace Voussoir
    * wrong table. */
   double add_added_mass(const SolidModel &model, const ReservoirParameters &reservoir, Structure &structure);
 
+  /** Returns a warning if the total of an added mass table is implausible against Westergaard's formula, or "". */
+  std::string added_mass_warning(const SolidModel &model, const ReservoirParameters &reservoir);
+
   /** Returns the added mass per area of the surface "upstream" per node of the model [kg/m^2], or empty. */
   std::vector<double> added_mass_per_area(const SolidModel &model, const ReservoirParameters &reservoir);
 

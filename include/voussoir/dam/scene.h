@@ -139,7 +139,8 @@ namespace Voussoir
       return output.tensile_strength > 0. ? output.tensile_strength : limits.tensile_strength;
     }
 
-    std::vector<Warning> warnings; ///< of read_scene()
+    std::vector<Warning> warnings;             ///< of read_scene()
+    bool                 is_for_modes = false; ///< read by `voussoir modes`; set before read_scene()
 
     /** Declares all entries. */
     void add_parameters(Entries &prm);

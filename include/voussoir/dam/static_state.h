@@ -33,6 +33,7 @@ namespace Voussoir
     Unknowns                load;        ///< of all static loads, 3 per node [N]
     Unknowns                memory;      ///< history variables of the joint laws
     Unknowns                closed;      ///< jumps at which the pairs are closed, 3 per pair [m]
+    std::vector<double>     removed;     ///< width of initial gap and cuts of each pair [m]
     std::vector<double>     joint_water; ///< pressure in each pair [Pa], or empty
     std::vector<PairState>  pairs;
     ContactResult           contact; ///< sum over all steps

@@ -2,6 +2,7 @@
 #ifndef voussoir_impact_h
 #define voussoir_impact_h
 
+#include <voussoir/dynamics/pair_clusters.h>
 #include <voussoir/joints/joint_system.h>
 
 #include <string>
@@ -35,10 +36,9 @@ namespace Voussoir
    * displacements, pair by pair. Without it, the force of a closed pair oscillates from step to step
    * (doc/failures.md, Plain Newmark).
    *
-   * The mass matrix is lumped with one 3x3 block per node. Pairs that share nodes form a cluster, whose impulses are
-   * computed together by Gauss-Seidel iterations. Their sum never adds energy; otherwise only the normal velocities of
+   * The impulses of a cluster are computed together by Gauss-Seidel iterations. Their sum never adds energy; otherwise only the normal velocities of
    * the cluster are corrected. The structure and the laws must outlive the object. */
-  class Impact
+  class Impact : PairClusters
   {
   public:
     /** Inverts the masses. Throws InputError if pairs share nodes and the rule is paper or impulse_consistent. */
@@ -65,38 +65,19 @@ namespace Voussoir
                        const Unknowns &force, const Unknowns &v, const Unknowns &nodal_force) const;
 
   private:
-    /** Pairs that share nodes. */
-    struct Cluster
-    {
-      std::vector<unsigned int> pairs;
-      std::vector<Matrix3>      H; ///< G M^-1 G^T between its pairs, by row
-      const Matrix3            &between(const std::size_t i, const std::size_t j) const
-      {
-        return H[i * pairs.size() + j];
-      }
-    };
     struct ClusterStep;
-    Matrix3 between(const Pair &p, const Pair &q) const;
-    void    add_cluster(const std::vector<unsigned int> &pairs);
-    void    correct_cluster(const JointSystem &system, const std::vector<PairHistory> &histories, double dt,
-                            const Cluster &cluster, const Unknowns &change, Unknowns &v,
-                            Unknowns &impulse) const;
+    void correct_cluster(const JointSystem &system, const std::vector<PairHistory> &histories, double dt,
+                         const Cluster &cluster, const Unknowns &change, Unknowns &v,
+                         Unknowns &impulse) const;
 
     /** Computes the impulses of a cluster. Returns false without convergence. */
     bool solve_cluster(const Cluster &cluster, const std::vector<PairHistory> &histories,
                        ClusterStep &step) const;
     void correct_pair(const JointSystem &system, const PairHistory &history, double dt, std::size_t p,
                       const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
-    /** Adds M^-1 G^T f of one pair to the velocity @p v. */
-    void add_impulse(const Pair &pair, const Vector3 &f, Unknowns &v) const;
-
-    const Structure          &structure;
-    const JointLaws          &laws;
-    const ImpactRule          rule;
-    std::vector<Matrix3>      inverse_mass; ///< per node
-    std::vector<Matrix3>      pair_inverse; ///< G M^-1 G^T per pair
-    std::vector<Cluster>      clusters;
-    std::vector<unsigned int> single; ///< pairs that share no nodes
+    const Structure &structure;
+    const JointLaws &laws;
+    const ImpactRule rule;
   };
 } // namespace Voussoir
 

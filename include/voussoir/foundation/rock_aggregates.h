@@ -4,6 +4,8 @@
 
 #include <voussoir/base/node_matrix.h>
 
+#include <map>
+
 namespace Voussoir
 {
   /** Rigid body motion: three translations, then three rotations times the size of the body. Also the dual
@@ -60,10 +62,14 @@ namespace Voussoir
     std::vector<double>  size;        ///< largest distance of a node from the centre [m]
   };
 
+  /** Stiffness of springs to the ground by node [N/m]. */
+  using NodeSprings = std::map<unsigned int, Matrix3>;
+
   /** Prolongation smoother S = 1 - damping D^-1 K, with the diagonal blocks D of the stiffness matrix K. */
   struct RockSmoothing
   {
     const BlockSparseMatrix    &stiffness;
+    const NodeSprings          &springs; ///< part of K
     const std::vector<Matrix3> &inverse; ///< of the diagonal blocks, zero at held nodes [m/N]
     double                      damping; ///< damping factor [-]
   };

@@ -8,6 +8,11 @@
 
 namespace Voussoir
 {
+  /** Returns the springs of the outer boundary of the rock for static loads near the @p centre [m]. Their stiffness is
+   * that of an infinite elastic space under a force in the centre: traction over displacement at the distance r, along
+   * and across r (Kelvin's solution). */
+  NodeSprings springs_of_far_rock(const RockModel &model, const Vector3 &centre);
+
   /** Static state of dam and explicit rock: fixed-point iteration for the displacements of the base nodes,
    * with Anderson acceleration (Walker and Ni 2011, SIAM J. Numer. Anal. 49). An iteration computes the dam
    * on stiff springs under the loads and the forces of the previous iteration. It then computes the rock

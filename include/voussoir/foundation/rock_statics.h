@@ -22,10 +22,11 @@ namespace Voussoir
   class RockStatics
   {
   public:
-    /** Creates the multigrid levels. @p held: nodes of the @p model with zero displacement. The @p model must
+    /** Creates the multigrid levels. @p held: nodes of the @p model with zero displacement. @p springs: added to its
+     * stiffness. The @p model must
      * outlive the object. @p make_coarse_solver: solver of the coarse problem. Throws ComputationError if the
      * stiffness matrix is not positive definite, or if the coarse solver fails. Must be called by all ranks. */
-    RockStatics(const RockModel &model, const std::vector<bool> &held,
+    RockStatics(const RockModel &model, const std::vector<bool> &held, NodeSprings springs,
                 const MakeCoarseRock &make_coarse_solver = make_coarse_rock);
     ~RockStatics();
 
@@ -61,6 +62,7 @@ namespace Voussoir
     template <class Action> void everywhere(const Action &action) const; ///< for components of this rank
 
     RockAggregates                   aggregates;
+    NodeSprings                      springs;
     unsigned int                     n_nodes, n_free = 0; ///< n_free: number of unknowns
     RockSplit                        split;
     std::unique_ptr<RockOperator>    stiffness;

@@ -53,8 +53,10 @@ namespace Voussoir
     /** Ends the record of one time, after all pairs were added. @p time: present time [s]. */
     void end_record(double time);
 
-    /** Writes joint_points.csv with one line per pair, and joint_cells.csv with the quadrilaterals. */
-    void write(const std::string &directory, const DamGeometry &geometry) const;
+    /** Writes joint_points.csv with one line per pair, and joint_cells.csv with the quadrilaterals. @p at_start: of each
+     * pair in the static state, pressure [Pa], opening and distance of the concrete faces [m]. */
+    void write(const std::string &directory, const DamGeometry &geometry,
+               const std::vector<Vector3> &at_start) const;
 
     /** Returns the largest value at the last recorded time [m]. @p slip: true for slip, false for opening. */
     Extreme residual(bool slip) const;

@@ -3,6 +3,7 @@
 #define voussoir_observers_h
 
 #include <voussoir/base/log.h>
+#include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/tractions.h>
 #include <voussoir/output/block_recorder.h>
 #include <voussoir/output/face_tension.h>
@@ -60,17 +61,17 @@ namespace Voussoir
   private:
     void declare_history();
     void declare_energy();
-    void declare_point(const std::string &name, unsigned int node);
+    void declare_point(const std::string &name, const PlaceInDam &place);
     void declare_accelerations();
 
-    const RunState           &run;
-    bool                      crown_is_at_joint = false; ///< history.csv has both sides of the joint
-    double                    imbalance = 0.;            ///< largest |energy balance| so far [J]
-    std::vector<std::string>  points;                    ///< names of the crest and the probes
-    std::vector<unsigned int> nodes;                     ///< their nodes in the mesh
-    Table                     history, energy;
-    TableColumns              history_columns{history}, energy_columns{energy};
-    TableFile                 history_file, energy_file;
+    const RunState          &run;
+    bool                     crown_is_at_joint = false; ///< history.csv has both sides of the joint
+    double                   imbalance = 0.;            ///< largest |energy balance| so far [J]
+    std::vector<std::string> points;                    ///< names of the crest and the probes
+    std::vector<PlaceInDam>  places;                    ///< their places in the mesh
+    Table                    history, energy;
+    TableColumns             history_columns{history}, energy_columns{energy};
+    TableFile                history_file, energy_file;
   };
 
   /** Dynamic pressures of acoustic water on the upstream face (water_pressure.csv). */

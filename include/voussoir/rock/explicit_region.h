@@ -187,12 +187,6 @@ namespace Voussoir
     std::vector<std::pair<int, int>> pieces; ///< ranges of nodes of this process, within chunks
   };
 
-  /** Returns the largest circular frequency of M^-1 K [1/s], by Lanczos' method. The residual is added, so
-   * the result is an upper bound; it is too large by at most 5e-6 of its value.
-   * @p mass: of each node [kg]. */
-  double largest_frequency(const RockOperator &stiffness, const std::vector<double> &mass);
-  double largest_frequency(const BlockSparseMatrix &stiffness, const std::vector<double> &mass);
-
   /** Returns the message for a time step @p dt above the @p critical one [s]. The caller appends the
    * suggested action. */
   std::string beyond_critical_step(double dt, double critical);

@@ -5,6 +5,7 @@
 namespace Voussoir
 {
   constexpr double bytes_per_water_node = 850.; ///< measured, see tests/program_memory.py
+  constexpr double largest_mass_factor = 1.3;   ///< of the water, for time steps above the critical one [-]
 
   /** Returns the estimated number of nodes of the generated channel, see make_channel().
    * @param area section below the water level [m^2]
