@@ -56,7 +56,7 @@ def stopped_by(number, output, *arguments, after="history.csv", lines=40):
 def names():
     """Directories and scenes whose names a shell would take apart, or an option parser."""
     write_scene()
-    for name in ("o';touch X;'", "with space", '"$(touch X)"', "-dash", "a&b|c;d", "back`touch X`", "ümlaut"):
+    for name in ("-dash o';touch X;'", '"$(touch X)" ümlaut', "a&b|c;d back`touch X`"):
         shutil.copy("scene.prm", f"{name}.prm")
         scene = f"./{name}.prm"
         shown = runs(scene, "--output", name, "--set", "Output/Figures=true", "--set", "Motion/Duration=0.1")
