@@ -39,7 +39,7 @@ def failed(result, *parts):
 
 def stopped_by(number, output, *arguments, after="history.csv", lines=40):
     """Starts a run, and sends the signal when a file of its output has so many lines."""
-    for attempt in range(10):
+    for _ in range(30):  # on a busy machine it may end before this process sees the file
         shutil.rmtree(output, ignore_errors=True)
         process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", output, *arguments], text=True,
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
