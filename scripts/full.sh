@@ -11,7 +11,11 @@ set -euo pipefail
 source "$(dirname "${BASH_SOURCE[0]}")/environment.sh"
 cd "$root"
 
-tests() { scripts/test.sh; }
+tests()
+{
+  scripts/test.sh
+  (cd build && VOUSSOIR_START_SERVER=$PWD/tests/libstart_server.so "$root/tests/fuzz.py" voussoir)
+}
 sanitizers() { scripts/sanitize.sh; }
 mutants() { scripts/mutants.sh --table build/mutants.md; }
 systems() { scripts/try_release.sh trixie; }

@@ -2,14 +2,15 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Damaged input files: whatever is in a file, the program must end with a result or with a message.
 
-    fuzz.py VOUSSOIR [--count 200] [--seed 1] [--only N] [--jobs 2] [--time-out 20] [KIND...]
+    fuzz.py VOUSSOIR [--count 200] [--seconds S] [--seed 1] [--only N] [--jobs 2] [--time-out 20] [KIND...]
 
 Kinds: prm, msh (2.2 and 4.1, ascii and binary), motion (columns, AT2), fclib, checkpoint; all by default. Each case is a
 sound file with one to five seeded mutations. What fails: a signal, a run that does not end, status 2 without
 "voussoir: error: ", 1 without "voussoir: failed: ", another status, "internal error", a message that speaks of the
 code, a motion that is not finite, a resumed run with other results, an FCLib file that keeps a sound one after it from
 being solved. Files of failed cases are kept in fuzz/KIND/failed/N below the working directory, with the command.
---only N repeats one case. --time-out: CPU seconds of a case, and six times that by the clock on the wall.
+--only N repeats one case. --seconds: as many cases as take this time, in random order. --time-out: CPU seconds of a case, and six times
+that by the clock on the wall.
 The environment variable VOUSSOIR_START_SERVER names the library of start_server.cc, which saves the start of the program (most of the time).
 """
 
@@ -453,7 +454,8 @@ class Campaign:
     def __init__(self, kind, options):
         self.kind, self.options = kind, options
         self.numbers = queue.Queue()
-        for number in [options.only] if options.only is not None else range(options.count):
+        numbers = [options.only] if options.only is not None else list(range(options.count))
+        for number in random.sample(numbers, len(numbers)) if options.seconds else numbers:
             self.numbers.put(number)
         self.failures, self.endings, self.lock = [], {0: 0, 1: 0, 2: 0}, threading.Lock()
 
@@ -480,10 +482,13 @@ class Campaign:
     def work(self, index):
         runner = Server(self.kind.program, preexec_fn=limit_memory) if os.path.isfile(Server.library) else Direct(self.kind.program)
         try:
-            while True:
+            end = time.time() + (self.options.seconds or math.inf)
+            while time.time() < end:
                 self.one(self.numbers.get_nowait(), runner, self.kind.root / f"case_{index}")
         except queue.Empty:
             pass
+        except Exception as error:  # of a thread: nobody else would see it
+            self.failures.append(repr(error))
 
     def run(self):
         start = time.time()
@@ -505,6 +510,7 @@ def main():
     parser.add_argument("--count", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--only", type=int)
+    parser.add_argument("--seconds", type=float)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--time-out", type=int, default=20)
     options = parser.parse_intermixed_args()

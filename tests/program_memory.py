@@ -28,7 +28,7 @@ subsection Mesh
   end
 end
 subsection Motion
-  set Duration = 0.32
+  set Duration = 0.2
   set Time step = 0.01
 end
 subsection Output
@@ -56,7 +56,7 @@ def estimates():
     """To a fifth: joints, tied, with factors in double precision, elements of degree 2, on rock, on
     massless rock of degree 2."""
     for name, file in (("joints", scene("joints", 5, 60, 16, 2)), ("tied", scene("tied", 0, 60, 16, 3)),
-                       ("double", scene("double", 0, 110, 40, 6, more="subsection Dynamics\n set Factors = double\n end")),
+                       ("double", scene("double", 0, 90, 32, 5, more="subsection Dynamics\n set Factors = double\n end")),
                        ("quadratic", scene("quadratic", 5, 30, 8, 1, more="subsection Elements\n set Degree = 2\n end")),
                        ("water", scene("water", 5, 60, 16, 2, more="subsection Reservoir\n set Model = acoustic\n set Element size = 16\n end")),
                        ("rock", scene("rock", 5, 30, 10, 1, ROCK, ON_ROCK)),

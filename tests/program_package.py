@@ -192,8 +192,8 @@ SMALLER = {"2_own_dam": f"{ARCS} {ROCK}", "7_report": rf"{ARCS} {ROCK} --set Mes
 
 
 def shortened(text, page, options, drawn):
-    """The commands of a block with the options that make them small, before a redirection. Runs after the first are without figures. drawn: the
-    runs with figures so far."""
+    """The commands of a block with the options that make them small, before a redirection. drawn: if not empty, the runs are without figures,
+    except on the first page."""
     lines = []
     for line in text.splitlines():
         more = options
@@ -217,7 +217,8 @@ def tutorial(name):
     Path("bin").mkdir()
     Path("bin/python3").symlink_to(sys.executable)
     environment = {**os.environ, "PATH": f"{Path('bin').absolute()}:{Path(VOUSSOIR).parent}:{os.environ['PATH']}"}
-    n, drawn, taken = 0, [], set()
+    n, taken = 0, set()
+    drawn = [] if name in ("1_first_run", "2_own_dam") else [name]
     for remarks, text in blocks(ROOT / "doc" / "tutorials" / f"{name}.md"):
         if "not run" in remarks:
             continue
