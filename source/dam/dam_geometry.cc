@@ -50,10 +50,10 @@ namespace Voussoir
       for (const bool upstream : {true, false})
       {
         unsigned int &best = upstream ? crest.upstream : crest.downstream;
-        if (best == rigid_ground || pairs[p].place[2] > pairs[best].place[2] + tall ||
-            (pairs[p].place[2] > pairs[best].place[2] - tall &&
-             (pairs[p].place[0] < pairs[best].place[0]) == upstream))
-          best = p;
+        const Vector3 d = best == rigid_ground ? Vector3{} : pairs[p].place - pairs[best].place;
+        if (best == rigid_ground || d[2] > tall ||
+            (d[2] > -tall && (std::abs(d[0]) > tall ? (d[0] < 0.) == upstream : d[1] < 0.)))
+          best = p; // of pairs at equal places in height and along the river, the one at the right bank
       }
     }
     for (CrestPairs &crest : joints)
