@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// FCLib files: written and read again, in all layouts of W; bad ones are refused.
+// FCLib files and texts of problems: written and read again, in all layouts of W; bad ones are refused.
 // The bad files stay in DIRECTORY, where the test of the program finds them.
 // Usage: contact_files DIRECTORY
 
 #include "blocks.h"
+#include "fclib_io.h"
+#include "problem_file.h"
 
-#include <voussoir/app/contact_command.h>
 #include <voussoir/base/error.h>
 
 #include <filesystem>
@@ -17,6 +18,8 @@ using namespace Columns;
 namespace
 {
   std::string directory = "contact_files";
+
+  const std::string text_file = "contact_files.txt";
 
   std::string file(const std::string &name)
   {
@@ -51,7 +54,7 @@ namespace
   void write_new(const std::string &name, const FrictionProblem &problem)
   {
     std::filesystem::remove(file(name));
-    write_fclib(file(name), problem, {}, {});
+    write_fclib(file(name), problem);
   }
 
   void remove_entry(const std::string &name, const std::string &path)
@@ -98,9 +101,16 @@ namespace
            difference(p, read_fclib(file("good"))) == 0. && read_fclib(file("good")).title == p.title);
     const std::string with_guess = file("with_guess");
     std::filesystem::remove(with_guess);
-    write_fclib(with_guess, p, Unknowns(15, 1.), Unknowns(15, 2.));
+    FrictionProblem guessed = p;
+    for (unsigned int i = 0; i < 15; ++i)
+      guessed.guess.push_back(1. / (3. + i));
+    write_fclib(with_guess, guessed);
     report("with an initial guess", difference(p, read_fclib(with_guess)), "= 0",
            difference(p, read_fclib(with_guess)) == 0.);
+    write_friction_problem(text_file, guessed);
+    const FrictionProblem read = read_problem(text_file);
+    report("written as text and read again", difference(p, read), "= 0",
+           difference(p, read) == 0. && read.guess == guessed.guess && read.title == p.title);
 
     // The other layouts
     std::vector<int>    row, column, start(1, 0);
@@ -324,13 +334,52 @@ namespace
     bool there = false;
     try
     {
-      write_fclib(file("good"), p, {}, {});
+      write_fclib(file("good"), p);
     }
     catch (const InputError &error)
     {
       there = std::string(error.what()).find("already exists") != std::string::npos;
     }
     report("a file that is there is not overwritten", 0., "", there);
+  }
+
+  /** Refuses the text of a problem with @p from replaced by @p to. */
+  void refused_text(const std::string &from, const std::string &to, const std::string &part)
+  {
+    std::ifstream in(text_file);
+    std::string   text((std::istreambuf_iterator<char>(in)), {});
+    const auto    place = text.find(from);
+    text = place == std::string::npos ? "" : text.replace(place, from.size(), to);
+    const std::string bad = directory + "/bad.txt";
+    std::ofstream(bad) << text;
+    std::string message;
+    try
+    {
+      read_problem(bad);
+    }
+    catch (const InputError &error)
+    {
+      message = error.what();
+    }
+    report("text with " + to + ": " + message, 0., "", message.find(part) != std::string::npos);
+  }
+
+  void test_bad_texts()
+  {
+    FrictionProblem p = sample(2);
+    p.mu = {.25, .5};
+    p.guess.assign(6, 0.);
+    write_friction_problem(text_file, p);
+    refused_text("2 4", "0 4", "do not agree");
+    refused_text("2 4", "2 99999999999", "do not agree");
+    refused_text("2 4", "-2 4", "do not agree");
+    refused_text("2 4", "2 5", "a number is missing");
+    refused_text(" 0.25 ", " -0.25 ", "friction");
+    refused_text(" 0.25 ", " nan ", "not a finite number");
+    refused_text(" 0.25 ", " 1e999 ", "not a finite number");
+    refused_text("\n1 1 2 ", "\n1 2 2 ", "column 2, outside");
+    refused_text("\n1 1 2 ", "\n1 1 -2 ", "diagonal of W");
+    refused_text("\n1 1 2 ", "\n1 0 2 ", "diagonal of W"); // no block on the diagonal
   }
 } // namespace
 
@@ -339,5 +388,5 @@ int main(int argc, char **argv)
   if (argc > 1)
     directory = argv[1];
   std::filesystem::create_directories(directory);
-  return run_all({test_round_trip, test_bad_files});
+  return run_all({test_round_trip, test_bad_files, test_bad_texts});
 }
