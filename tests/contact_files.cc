@@ -97,16 +97,16 @@ namespace
   {
     const FrictionProblem p = sample(5);
     write_new("good", p);
-    report("written and read again, by rows", difference(p, read_fclib(file("good"))), "= 0",
-           difference(p, read_fclib(file("good"))) == 0. && read_fclib(file("good")).title == p.title);
+    report("written and read again, by rows", difference(p, read_problem(file("good"))), "= 0",
+           difference(p, read_problem(file("good"))) == 0. && read_problem(file("good")).title == p.title);
     const std::string with_guess = file("with_guess");
     std::filesystem::remove(with_guess);
     FrictionProblem guessed = p;
     for (unsigned int i = 0; i < 15; ++i)
       guessed.guess.push_back(1. / (3. + i));
     write_fclib(with_guess, guessed);
-    report("with an initial guess", difference(p, read_fclib(with_guess)), "= 0",
-           difference(p, read_fclib(with_guess)) == 0.);
+    report("with an initial guess", difference(p, read_problem(with_guess)), "= 0",
+           difference(p, read_problem(with_guess)) == 0.);
     write_friction_problem(text_file, guessed);
     const FrictionProblem read = read_problem(text_file);
     report("written as text and read again", difference(p, read), "= 0",
@@ -134,13 +134,13 @@ namespace
     put("by_columns", W + "i", row);
     put("by_columns", W + "x", value);
     put<int>("by_columns", W + "nz", {-1});
-    below("by columns", difference(p, read_fclib(file("by_columns"))), 1e-300);
+    below("by columns", difference(p, read_problem(file("by_columns"))), 1e-300);
     write_new("triplets", p);
     put("triplets", W + "p", column);
     put("triplets", W + "i", row);
     put("triplets", W + "x", value);
     put<int>("triplets", W + "nz", {int(value.size())});
-    below("triplets", difference(p, read_fclib(file("triplets"))), 1e-300);
+    below("triplets", difference(p, read_problem(file("triplets"))), 1e-300);
     value[4] -= 3.; // what is given twice is added
     row.push_back(row[4]), column.push_back(column[4]), value.push_back(3.);
     put("triplets", W + "p", column);
@@ -148,14 +148,14 @@ namespace
     put("triplets", W + "x", value);
     put<int>("triplets", W + "nz", {int(value.size())});
     put<int>("triplets", W + "nzmax", {int(value.size())});
-    below("triplets, one of them given twice", difference(p, read_fclib(file("triplets"))), 1e-14);
+    below("triplets, one of them given twice", difference(p, read_problem(file("triplets"))), 1e-14);
     // Titles are optional.
     write_new("no_info", p);
     remove_entry("no_info", "/fclib_local/info");
-    below("without title", difference(p, read_fclib(file("no_info"))), 1e-300);
+    below("without title", difference(p, read_problem(file("no_info"))), 1e-300);
     write_new("half_info", p);
     remove_entry("half_info", "/fclib_local/info/math_info");
-    below("with a title, without the rest", difference(p, read_fclib(file("half_info"))), 1e-300);
+    below("with a title, without the rest", difference(p, read_problem(file("half_info"))), 1e-300);
   }
 
   void refused(const std::string &name, const std::string &part)
@@ -164,7 +164,7 @@ namespace
     bool        good = false;
     try
     {
-      read_fclib(file(name));
+      read_problem(file(name));
     }
     catch (const InputError &error)
     {
@@ -311,7 +311,7 @@ namespace
     put<double>("half_matrix_info", W + "determinant", {1.});
     refused("half_matrix_info", W + "rank");
     put<int>("half_matrix_info", W + "rank", {9});
-    report("W with a description", 0., "", read_fclib(file("half_matrix_info")).q.size() == 9);
+    report("W with a description", 0., "", read_problem(file("half_matrix_info")).q.size() == 9);
     {
       write_new("bilateral", p);
       const hid_t h = H5Fopen(file("bilateral").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);

@@ -8,7 +8,7 @@
 import json
 from pathlib import Path
 
-from run_program import contact_program, run_cases, expect, refused, runs, same, summary, table, voussoir, write_scene
+from run_program import contact_program, run_cases, expect, refused, runs, same, succeeds, summary, table, voussoir, write_scene
 
 # Factors in double precision: tests of round-off
 SHORT = [x for e in ("Motion/Duration=1", "Output/Envelope interval=0", "Joints/Model=KSM", "Dynamics/Factors=double") for x in ("--set", e)]
@@ -94,6 +94,10 @@ def problems():
         print("    ", line[:160])
         expect(result["converged"], "solved")
         expect(result["contacts"] > summary("x")["mesh"]["pairs"], "more contacts than pairs")
+    succeeds(contact_program(*files[:2], "--tolerance", "1e-9", "--write-fclib", "fclib"))
+    again = succeeds(contact_program(*(Path("fclib", f"{file.stem}.hdf5") for file in files[:2]), "--tolerance", "1e-9")).splitlines()
+    texts, converted = ([{k: x for k, x in json.loads(line).items() if k not in ("file", "seconds")} for line in some] for some in (lines[:2], again))
+    expect(texts == converted, f"as FCLib files: {converted} instead of {texts}")
 
 
 def branches():

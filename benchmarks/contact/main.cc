@@ -9,7 +9,9 @@
 #include <voussoir/base/output_file.h>
 #include <voussoir/base/version.h>
 
+#include <algorithm>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <ctime>
 #include <filesystem>

@@ -249,9 +249,8 @@ namespace Voussoir
   Arguments read_arguments(const std::vector<std::string> &words)
   {
     if (!words.empty() && words[0] == "contact")
-      throw InputError(
-          "`voussoir contact` became a program, `voussoir-contact`, with the same options. Build "
-          "it: `cmake --build build --target voussoir-contact`.");
+      throw InputError("`voussoir contact` is now the program `voussoir-contact`, with the same options; "
+                       "`cmake --build build --target voussoir-contact` builds it.");
     Arguments               arguments;
     const std::vector<Word> sorted = sort_out(words);
     for (const Word &word : sorted)
