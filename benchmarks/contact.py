@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The contact solver against Siconos on friction problems in FCLib files, as Dolan-More performance profiles.
 
-    benchmarks/contact.py [--program build/voussoir] [--samples DIRECTORY] [--problems DIRECTORY] [--output DIRECTORY]
+    benchmarks/contact.py [--program build/voussoir-contact] [--samples DIRECTORY] [--problems DIRECTORY] [--output DIRECTORY]
 
 Takes the "fclib_local" problems of the samples (names with dam* apart from the published ones) and of further
-directories, such as the problems that Voussoir dumped. Voussoir runs as `voussoir contact`, Siconos through its Python
-interface, both from r = 0, with the same cap of CPU seconds per solve and the same tolerances.
+directories, such as `voussoir-contact --write-fclib` makes of problems of dams. Voussoir runs as `voussoir-contact`,
+Siconos through its Python interface, both from r = 0, with the same cap of CPU seconds per solve and the same tolerances.
 
 The error of every result is computed here, from r alone, by one function: the natural map with rho = 1, relative to
 the largest norm of q, r and u, of the problem with W divided by the mean of its diagonal. What a solver says of its
@@ -282,7 +282,7 @@ class Voussoir:
         self.program, self.cap, self.writes = program, cap, True
 
     def run(self, problem, tolerance, files, directory):
-        command = [str(self.program), "contact", *map(str, files), "--tolerance", f"{tolerance:g}",
+        command = [str(self.program), *map(str, files), "--tolerance", f"{tolerance:g}",
                    "--max-seconds", f"{self.cap:g}"]
         if self.writes:
             command += ["--write-solutions", directory]
@@ -324,8 +324,8 @@ def voussoir_usable(program):
         text = subprocess.run([str(program), "--help"], text=True, stdout=subprocess.PIPE, timeout=60).stdout
     except (OSError, subprocess.TimeoutExpired):
         text = ""
-    if "voussoir contact" not in text:
-        print(f"NO VOUSSOIR: {program} is missing or has no command `contact`", file=sys.stderr)
+    if "voussoir-contact" not in text:
+        print(f"NO VOUSSOIR: {program} is missing (ninja voussoir-contact)", file=sys.stderr)
         return False
     return True
 
@@ -527,7 +527,7 @@ def run_siconos(problems, options):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--program", type=Path, default=ROOT / "build" / "voussoir", help="Voussoir")
+    parser.add_argument("--program", type=Path, default=ROOT / "build" / "voussoir-contact", help="Voussoir")
     collection = ROOT / "../shared/reference/data/fclib"  # all of them; tests/fclib, with RockPile, is a choice
     parser.add_argument("--samples", type=Path, default=collection if collection.exists() else ROOT / "tests" / "fclib", help="FCLib files")
     parser.add_argument("--problems", type=Path, action="append", default=[], help="further dam-type problems")

@@ -167,8 +167,8 @@ def velocity(options):
 
 
 def solve_problems(options, files, *arguments):
-    """Answers of `voussoir contact`, which are printed for those that fail, too (status 1)."""
-    text, _ = run(options.voussoir, "contact", *arguments, *files)
+    """Answers of `voussoir-contact`, beside the program, which are printed for those that fail, too (status 1)."""
+    text, _ = run(Path(options.voussoir).with_name("voussoir-contact"), *arguments, *files)
     return [json.loads(line) for line in text.splitlines() if line.startswith("{")]
 
 
@@ -183,7 +183,7 @@ def angle(options):
                 "Contact/Write interval": 16}, output)
             rows.append((f"`{equations}`", *(f"{summary['newton_iterations'][k]:.4g}" for k in ("mean", "max")),
                          f"{1e3 * summary['extremes']['max_opening']['value']:.3f}"))
-        files = sorted((Path(directory) / "alart-curnier" / "contact" / "shaking").glob("*.hdf5"))
+        files = sorted((Path(directory) / "alart-curnier" / "contact" / "shaking").glob("*.txt"))
         times = [0.01 * int(file.stem.split("-")[1]) for file in files]
         for solver in ("newton", "paper"):
             answers[solver] = solve_problems(options, files, "--solver", solver)
@@ -391,6 +391,8 @@ def main():
     for name in options.names or CASES:
         if name in ("newmark", "angle"):
             need(options.voussoir, "scripts/build.sh, or name it with --voussoir")
+        if name == "angle":
+            need(Path(options.voussoir).with_name("voussoir-contact"), "ninja voussoir-contact")
         print(f"### {name}: {CASES[name].__doc__}\n")
         CASES[name](options)
     return 0

@@ -58,6 +58,6 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA ${CMAKE_SOURCE_DIR}/cmake/debian/
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME voussoir-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libdeal.ii-dev, libfclib-dev, libgmsh-dev, libhdf5-dev, libopenblas-dev, libsuitesparse-dev, mold")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libdeal.ii-dev, libgmsh-dev, libopenblas-dev, libsuitesparse-dev, mold")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SUGGESTS "voussoir (= ${PROJECT_VERSION}), cmake")
 include(CPack)

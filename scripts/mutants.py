@@ -264,7 +264,7 @@ def build(tree, directory, patterns=None):
 def targets_of(directory, patterns):
     """Targets of a configured build that the tests of these patterns require."""
     text = (directory / "tests" / "CTestTestfile.cmake").read_text()
-    targets = {"voussoir", "start_server"}
+    targets = {"voussoir", "voussoir-contact", "start_server"}
     for name, words in re.findall(r"^add_test\((\S+) (.*)\)$", text, re.M):
         if any(re.search(pattern, name.strip("[]=")) for pattern in patterns):
             targets |= set(re.findall(rf'"{re.escape(str(directory))}/tests/(test_\w+)"', words))

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// FCLib files: written and read again, in all layouts of W; bad ones are refused.
+// FCLib files and texts of problems: written and read again, in all layouts of W; bad ones are refused.
 // The bad files stay in DIRECTORY, where the test of the program finds them.
 // Usage: contact_files DIRECTORY
 
 #include "blocks.h"
+#include "fclib_io.h"
+#include "problem_file.h"
 
-#include <voussoir/app/contact_command.h>
 #include <voussoir/base/error.h>
 
 #include <filesystem>
@@ -17,6 +18,8 @@ using namespace Columns;
 namespace
 {
   std::string directory = "contact_files";
+
+  const std::string text_file = "contact_files.txt";
 
   std::string file(const std::string &name)
   {
@@ -51,7 +54,7 @@ namespace
   void write_new(const std::string &name, const FrictionProblem &problem)
   {
     std::filesystem::remove(file(name));
-    write_fclib(file(name), problem, {}, {});
+    write_fclib(file(name), problem);
   }
 
   void remove_entry(const std::string &name, const std::string &path)
@@ -94,13 +97,20 @@ namespace
   {
     const FrictionProblem p = sample(5);
     write_new("good", p);
-    report("written and read again, by rows", difference(p, read_fclib(file("good"))), "= 0",
-           difference(p, read_fclib(file("good"))) == 0. && read_fclib(file("good")).title == p.title);
+    report("written and read again, by rows", difference(p, read_problem(file("good"))), "= 0",
+           difference(p, read_problem(file("good"))) == 0. && read_problem(file("good")).title == p.title);
     const std::string with_guess = file("with_guess");
     std::filesystem::remove(with_guess);
-    write_fclib(with_guess, p, Unknowns(15, 1.), Unknowns(15, 2.));
-    report("with an initial guess", difference(p, read_fclib(with_guess)), "= 0",
-           difference(p, read_fclib(with_guess)) == 0.);
+    FrictionProblem guessed = p;
+    for (unsigned int i = 0; i < 15; ++i)
+      guessed.guess.push_back(1. / (3. + i));
+    write_fclib(with_guess, guessed);
+    report("with an initial guess", difference(p, read_problem(with_guess)), "= 0",
+           difference(p, read_problem(with_guess)) == 0.);
+    write_friction_problem(text_file, guessed);
+    const FrictionProblem read = read_problem(text_file);
+    report("written as text and read again", difference(p, read), "= 0",
+           difference(p, read) == 0. && read.guess == guessed.guess && read.title == p.title);
 
     // The other layouts
     std::vector<int>    row, column, start(1, 0);
@@ -124,13 +134,13 @@ namespace
     put("by_columns", W + "i", row);
     put("by_columns", W + "x", value);
     put<int>("by_columns", W + "nz", {-1});
-    below("by columns", difference(p, read_fclib(file("by_columns"))), 1e-300);
+    below("by columns", difference(p, read_problem(file("by_columns"))), 1e-300);
     write_new("triplets", p);
     put("triplets", W + "p", column);
     put("triplets", W + "i", row);
     put("triplets", W + "x", value);
     put<int>("triplets", W + "nz", {int(value.size())});
-    below("triplets", difference(p, read_fclib(file("triplets"))), 1e-300);
+    below("triplets", difference(p, read_problem(file("triplets"))), 1e-300);
     value[4] -= 3.; // what is given twice is added
     row.push_back(row[4]), column.push_back(column[4]), value.push_back(3.);
     put("triplets", W + "p", column);
@@ -138,14 +148,14 @@ namespace
     put("triplets", W + "x", value);
     put<int>("triplets", W + "nz", {int(value.size())});
     put<int>("triplets", W + "nzmax", {int(value.size())});
-    below("triplets, one of them given twice", difference(p, read_fclib(file("triplets"))), 1e-14);
+    below("triplets, one of them given twice", difference(p, read_problem(file("triplets"))), 1e-14);
     // Titles are optional.
     write_new("no_info", p);
     remove_entry("no_info", "/fclib_local/info");
-    below("without title", difference(p, read_fclib(file("no_info"))), 1e-300);
+    below("without title", difference(p, read_problem(file("no_info"))), 1e-300);
     write_new("half_info", p);
     remove_entry("half_info", "/fclib_local/info/math_info");
-    below("with a title, without the rest", difference(p, read_fclib(file("half_info"))), 1e-300);
+    below("with a title, without the rest", difference(p, read_problem(file("half_info"))), 1e-300);
   }
 
   void refused(const std::string &name, const std::string &part)
@@ -154,7 +164,7 @@ namespace
     bool        good = false;
     try
     {
-      read_fclib(file(name));
+      read_problem(file(name));
     }
     catch (const InputError &error)
     {
@@ -301,7 +311,7 @@ namespace
     put<double>("half_matrix_info", W + "determinant", {1.});
     refused("half_matrix_info", W + "rank");
     put<int>("half_matrix_info", W + "rank", {9});
-    report("W with a description", 0., "", read_fclib(file("half_matrix_info")).q.size() == 9);
+    report("W with a description", 0., "", read_problem(file("half_matrix_info")).q.size() == 9);
     {
       write_new("bilateral", p);
       const hid_t h = H5Fopen(file("bilateral").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
@@ -324,13 +334,52 @@ namespace
     bool there = false;
     try
     {
-      write_fclib(file("good"), p, {}, {});
+      write_fclib(file("good"), p);
     }
     catch (const InputError &error)
     {
       there = std::string(error.what()).find("already exists") != std::string::npos;
     }
     report("a file that is there is not overwritten", 0., "", there);
+  }
+
+  /** Refuses the text of a problem with @p from replaced by @p to. */
+  void refused_text(const std::string &from, const std::string &to, const std::string &part)
+  {
+    std::ifstream in(text_file);
+    std::string   text((std::istreambuf_iterator<char>(in)), {});
+    const auto    place = text.find(from);
+    text = place == std::string::npos ? "" : text.replace(place, from.size(), to);
+    const std::string bad = directory + "/bad.txt";
+    std::ofstream(bad) << text;
+    std::string message;
+    try
+    {
+      read_problem(bad);
+    }
+    catch (const InputError &error)
+    {
+      message = error.what();
+    }
+    report("text with " + to + ": " + message, 0., "", message.find(part) != std::string::npos);
+  }
+
+  void test_bad_texts()
+  {
+    FrictionProblem p = sample(2);
+    p.mu = {.25, .5};
+    p.guess.assign(6, 0.);
+    write_friction_problem(text_file, p);
+    refused_text("2 4", "0 4", "do not agree");
+    refused_text("2 4", "2 99999999999", "do not agree");
+    refused_text("2 4", "-2 4", "do not agree");
+    refused_text("2 4", "2 5", "a number is missing");
+    refused_text(" 0.25 ", " -0.25 ", "friction");
+    refused_text(" 0.25 ", " nan ", "not a finite number");
+    refused_text(" 0.25 ", " 1e999 ", "not a finite number");
+    refused_text("\n1 1 2 ", "\n1 2 2 ", "column 2, outside");
+    refused_text("\n1 1 2 ", "\n1 1 -2 ", "diagonal of W");
+    refused_text("\n1 1 2 ", "\n1 0 2 ", "diagonal of W"); // no block on the diagonal
   }
 } // namespace
 
@@ -339,5 +388,5 @@ int main(int argc, char **argv)
   if (argc > 1)
     directory = argv[1];
   std::filesystem::create_directories(directory);
-  return run_all({test_round_trip, test_bad_files});
+  return run_all({test_round_trip, test_bad_files, test_bad_texts});
 }

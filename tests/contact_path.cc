@@ -3,10 +3,10 @@
 // time steps.
 
 #include "blocks.h"
+#include "sparse_contact.h"
 
 #include <voussoir/base/error.h>
 #include <voussoir/contact/law_table.h>
-#include <voussoir/contact/sparse_contact.h>
 
 #include <cstring>
 

@@ -4,10 +4,11 @@
 
 #include "blocks.h"
 #include "natural_map.h"
+#include "problem_file.h"
+#include "solve_problem.h"
+#include "sparse_contact.h"
 
-#include <voussoir/app/contact_command.h>
 #include <voussoir/contact/law_table.h>
-#include <voussoir/contact/sparse_contact.h>
 
 #include <ctime>
 #include <filesystem>
@@ -846,10 +847,11 @@ namespace
           problem.q[3 * p + c] = jump[c] + offset[3 * p + c] - (c == 0 ? 0. : start[3 * p + c]);
       }
       problem.title = "step";
-      const std::string file = "contact_solver_step.hdf5";
-      std::filesystem::remove(file);
-      write_fclib(file, problem, force, gap);
-      const FrictionSolution s = solve_friction_problem(read_fclib(file), tight(), Equations::alart_curnier);
+      problem.guess = force;
+      const std::string file = "contact_solver_step.txt";
+      write_friction_problem(file, problem);
+      const FrictionSolution s =
+          solve_friction_problem(read_problem(file), tight(), Equations::alart_curnier);
       report("  written, read and solved again: residual", s.result.residual, "converged",
              s.result.converged);
       below("  difference of the forces", difference(s.force, force), 1e-10);
@@ -866,7 +868,7 @@ namespace
       below("  all nodes: difference of the forces", difference(mixed, force), 1e-10);
       below("  all nodes: difference of the displacements", difference(v, u), 1e-10);
     }
-    std::filesystem::remove("contact_solver_step.hdf5");
+    std::filesystem::remove("contact_solver_step.txt");
   }
 } // namespace
 

@@ -53,7 +53,7 @@ def completion():
         print("not installed: bash")
         sys.exit(77)
     write("completion.bash", runs("completion", "bash"))
-    for name in ("scene.prm", "other.txt", "a.msh", "problem.hdf5", "arcs.csv"):
+    for name in ("scene.prm", "other.txt", "a.msh", "arcs.csv"):
         write(name, "")
     Path("out").mkdir()
 
@@ -74,7 +74,7 @@ def completion():
                             (["scene.prm", "--output", "=", "o"], ["out"]), (["scene.prm", "--output", "="], ["out"]),
                             (["scene.prm", "-o", ""], ["out"]), (["mesh", "scene.prm", "-o", ""], ["a.msh", "out"]),
                             (["mesh", "scene.prm", "--format", ""], ["2.2", "4.1"]), (["modes", "scene.prm", "--count", ""], []),
-                            (["mesh", ""], ["out", "scene.prm"]), (["arcs", ""], ["arcs.csv", "out"]), (["contact", ""], ["out", "problem.hdf5"]),
+                            (["mesh", ""], ["out", "scene.prm"]), (["arcs", ""], ["arcs.csv", "out"]),
                             (["report", ""], ["out"]), (["parameters", ""], ["json", "markdown", "prm"]), (["new", "s"], ["scene.prm"]),
                             (["scene.prm", "--set", "Joints/Fri"], ["Joints/Friction="]), (["--set", "=", "Joints/Fri"], ["Joints/Friction="]),
                             (["scene.prm", "--set", "'Concrete/Y"], ["Concrete/Young's modulus="]),

@@ -10,7 +10,7 @@ import os
 import struct
 from pathlib import Path
 
-from run_program import run_cases, expect, from_file, refused, runs, voussoir, write, write_scene
+from run_program import contact_program, run_cases, expect, from_file, refused, runs, voussoir, write, write_scene
 
 
 def meshes():
@@ -60,7 +60,7 @@ def fclib_files():
         place = 8 + i * (min(len(data), 6000) // 24)
         names.append(write(f"damaged_{i}.hdf5", "").strip())
         Path(names[-1]).write_bytes(data[:place] + struct.pack("<q", (-1, 2**62, 0)[i % 3]) + data[place + 8:])
-    result = voussoir("contact", *names, sound, "--max-seconds", "2", "--tolerance", "1e-8")
+    result = contact_program(*names, sound, "--max-seconds", "2", "--tolerance", "1e-8")
     solved = [json.loads(line)["file"] for line in result.stdout.splitlines()]
     errors = result.stderr.splitlines()
     print("\n".join("    " + line for line in errors))
@@ -68,7 +68,7 @@ def fclib_files():
     expect(all(line.startswith(("voussoir: error: ", "voussoir: failed: ")) for line in errors), result.stderr)
     expect(len(solved) + len(errors) == len(names) + 2, "one line for each file, and the last")
     os.mkfifo("fifo.hdf5")
-    refused(["contact", "fifo.hdf5"], "fifo.hdf5")
+    refused(["fifo.hdf5"], "fifo.hdf5", run=contact_program)
 
 
 def keys():

@@ -75,7 +75,7 @@ def packages():
     expect(all(len(paths) == 1 for paths in found.values()), f"{found}, {list(Path('packages').iterdir())}")
     fields = {name: does("dpkg-deb", "-f", path) for name, (path,) in found.items()}
     for name, parts in (("voussoir", ("Section: science", "python3-matplotlib", "libdeal.ii-", "libcholmod", "snakemake", "chromium")),
-                        ("voussoir-dev", ("Section: libdevel", "libdeal.ii-dev", "libfclib-dev"))):
+                        ("voussoir-dev", ("Section: libdevel", "libdeal.ii-dev", "libsuitesparse-dev"))):
         for part in (f"Package: {name}\n", f"Version: {version}\n", "Maintainer: ", *parts):
             expect(part in fields[name], f"{name} has no {part!r}: {fields[name]}")
         print(f"    {name}: {re.search('Installed-Size: (.*)', fields[name])[1]} kB")

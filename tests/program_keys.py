@@ -8,7 +8,7 @@
 import json
 from pathlib import Path
 
-from run_program import run_cases, expect, refused, runs, same, summary, table, voussoir, write_scene
+from run_program import contact_program, run_cases, expect, refused, runs, same, succeeds, summary, table, voussoir, write_scene
 
 # Factors in double precision: tests of round-off
 SHORT = [x for e in ("Motion/Duration=1", "Output/Envelope interval=0", "Joints/Model=KSM", "Dynamics/Factors=double") for x in ("--set", e)]
@@ -86,15 +86,19 @@ def problems():
     write_scene()
     runs("scene.prm", "--output", "x", *SHORT, *keys(45), "--set", "Contact/Write problems=true", "--set",
          "Contact/Write interval=17")
-    files = sorted(Path("x").rglob("problem-*.hdf5"))
+    files = sorted(Path("x").rglob("problem-*.txt"))
     expect(len(files) > 3, f"problems: {len(files)}")
     refused(["scene.prm", "--validate", *SHORT, "--set", "Joints/Model=FJB", "--set", "Contact/Write problems=true"], "Coulomb friction")
-    lines = voussoir("contact", *files[:4], "--tolerance", "1e-9").stdout.splitlines()
+    lines = contact_program(*files[:4], "--tolerance", "1e-9").stdout.splitlines()
     for line in lines:
         result = json.loads(line)
         print("    ", line[:160])
         expect(result["converged"], "solved")
         expect(result["contacts"] > summary("x")["mesh"]["pairs"], "more contacts than pairs")
+    succeeds(contact_program(*files[:2], "--tolerance", "1e-9", "--write-fclib", "fclib"))
+    again = succeeds(contact_program(*(Path("fclib", f"{file.stem}.hdf5") for file in files[:2]), "--tolerance", "1e-9")).splitlines()
+    texts, converted = ([{k: x for k, x in json.loads(line).items() if k not in ("file", "seconds")} for line in some] for some in (lines[:2], again))
+    expect(texts == converted, f"as FCLib files: {converted} instead of {texts}")
 
 
 def branches():

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import run_program
 from program_watch import settings
-from run_program import expect, run_cases, runs, write, write_scene
+from run_program import contact_program, expect, run_cases, runs, succeeds, write, write_scene
 
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1")
 SHORT = settings("Motion/Duration=0.3", "Output/Solution interval=10")
@@ -110,12 +110,12 @@ def problems():
     arguments = [*SHORT, *settings("Mesh/Arch210/Joints=5", "Mesh/Arch210/Elements along=12", "Contact/Write problems=true",
                                    "Contact/Write interval=9")]
     any_number("problems", (3,), *arguments)
-    files = sorted(path.relative_to("problems.1") for path in Path("problems.1").rglob("problem-*.hdf5"))
+    files = sorted(path.relative_to("problems.1") for path in Path("problems.1").rglob("problem-*.txt"))
     expect(len(files) > 3, f"problems: {len(files)}")
-    expect(files == sorted(path.relative_to("problems.3") for path in Path("problems.3").rglob("problem-*.hdf5")), "their names")
+    expect(files == sorted(path.relative_to("problems.3") for path in Path("problems.3").rglob("problem-*.txt")), "their names")
     solved = []
     for n in (1, 3):
-        out = runs("contact", *(Path(f"problems.{n}", file) for file in files[:4]))
+        out = succeeds(contact_program(*(Path(f"problems.{n}", file) for file in files[:4])))
         solved.append([{k: x for k, x in json.loads(line).items() if k not in ("file", "problem") and "second" not in k}
                        for line in out.splitlines()])
     expect(len(solved[0]) == 4 and solved[0] == solved[1], f"their solutions: {solved}")

@@ -306,7 +306,7 @@ def repeated():
         "Output/Checkpoint interval=3", "Output/Frames=5", "Contact/Write problems=true", "Joints/Keys/Height=0.3")]
     shown = runs("scene.prm", "--output", "full", *full)
     written = {str(path.relative_to("full")) for path in Path("full").rglob("*") if path.is_file()}
-    for name in ("water_pressure.csv", "stages.csv", "wedges.csv", "frames.bin", "solution.pvd", "figures/envelope_arch_upstream.png", "contact/shaking/problem-000001.hdf5"):
+    for name in ("water_pressure.csv", "stages.csv", "wedges.csv", "frames.bin", "solution.pvd", "figures/envelope_arch_upstream.png", "contact/shaking/problem-000001.txt"):
         expect(name in written, f"{name} is missing: {sorted(written)}")
     for name in ("html", "pdf"):
         write(f"full/report.{name}", "")

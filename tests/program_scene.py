@@ -38,7 +38,7 @@ def warned(arguments, *parts):
 def options():
     """Each command has its own options and its own help."""
     write_scene()
-    commands = {"mesh": "--format", "modes": "--count", "motion": "--output", "contact": "--max-seconds",
+    commands = {"mesh": "--format", "modes": "--count", "motion": "--output",
                 "parameters": "SECTION"}
     for command, option in commands.items():
         for arguments in ([command, "--help"], ["help", command], [command, "-h"]):
@@ -57,7 +57,6 @@ def options():
                              (["scene.prm", "--count", "3"], ("no option --count", "`voussoir modes`")),
                              (["modes", "scene.prm", "--format", "2.2"], ("`voussoir modes` has no option --format",)),
                              (["mesh", "scene.prm", *out, "--validate"], ("no option --validate",)),
-                             (["contact", "a.hdf5", "--set", "a=b"], ("no option --set",)),
                              (["parameters", "--quiet"], ("`voussoir parameters` has no option --quiet",)),
                              (["scene.prm", "--validat"], ("no option --validat", "Did you mean --validate?")),
                              (["scene.prm", "--quiet", *out, *out], ("--output", "twice")),

@@ -20,6 +20,7 @@ from collections import Counter
 from pathlib import Path
 
 VOUSSOIR = str(Path(sys.argv[1]).resolve()) if len(sys.argv) > 1 else ""
+CONTACT = str(Path(VOUSSOIR).with_name("voussoir-contact")) if VOUSSOIR else ""
 
 MESH = """
 subsection Mesh
@@ -61,7 +62,7 @@ def write(name, text):
 
 class Server:
     """Runs of the program with one start (start_server.cc)."""
-    library, one = os.environ.get("VOUSSOIR_START_SERVER", ""), None
+    library, of = os.environ.get("VOUSSOIR_START_SERVER", ""), {}
 
     def __init__(self, program, environment=None, **options):
         self.files = tempfile.TemporaryDirectory()
@@ -76,12 +77,18 @@ class Server:
         return subprocess.CompletedProcess(words, int(number) if kind == "exit" else -int(number), *texts)
 
 
-def voussoir(*arguments, environment=None):
+def voussoir(*arguments, environment=None, program=None):
+    program = program or VOUSSOIR
     if os.path.isfile(Server.library) and not environment and not any(c in word for word in map(str, arguments) for c in "\t\n"):
-        Server.one = Server.one or Server(VOUSSOIR)
-        return Server.one.run(arguments)
-    return subprocess.run([VOUSSOIR, *arguments], capture_output=True, text=True, timeout=120,
+        if program not in Server.of:
+            Server.of[program] = Server(program)
+        return Server.of[program].run(arguments)
+    return subprocess.run([program, *arguments], capture_output=True, text=True, timeout=120,
                           env={**os.environ, **(environment or {})})
+
+
+def contact_program(*arguments):
+    return voussoir(*arguments, program=CONTACT)
 
 
 def runs(*arguments, environment=None):
@@ -868,8 +875,11 @@ def contact():
     expect(len(samples) == 5 and len(hard) == 1, "tests/fclib")
     keys = {"file", "contacts", "converged", "residual", "residual_over_load", "iterations", "seconds", "solver", "sweeps"}
 
+    def refused_contact(arguments, *parts):
+        refused(arguments, *parts, run=contact_program)
+
     def solved(*arguments):
-        lines = [json.loads(line) for line in runs("contact", *arguments).splitlines()]
+        lines = [json.loads(line) for line in succeeds(contact_program(*arguments)).splitlines()]
         for line in lines:
             expect(set(line) == keys, f"keys {sorted(line)}")
             print("   ", Path(line["file"]).name, *(f"{k} {line[k]}" for k in sorted(keys - {"file"})))
@@ -905,7 +915,7 @@ def contact():
             expect(line["converged"], f"{line}")
 
     # Not solved: status 1, "converged" false, a line for each file nevertheless
-    result = voussoir("contact", *samples, "--tolerance", "1e-30", "--max-seconds", "0.05")
+    result = contact_program(*samples, "--tolerance", "1e-30", "--max-seconds", "0.05")
     lines = [json.loads(line) for line in result.stdout.splitlines()]
     expect(result.returncode == 1 and result.stderr.startswith("voussoir: failed: "), result.stderr)
     expect(len(lines) == 5 and not all(line["converged"] for line in lines), result.stdout)
@@ -913,21 +923,26 @@ def contact():
 
     good = small[0]
     for tolerance in ("0", "-1", "nan", "inf", "small", "", "1e-12x"):
-        refused(["contact", good, "--tolerance", tolerance], "--tolerance")
+        refused_contact([good, "--tolerance", tolerance], "--tolerance")
     for limit in ("0", "-1", "nan", "soon"):
-        refused(["contact", good, "--max-seconds", limit], "--max-seconds")
-    refused(["contact", good, "--solver", "bfgs"], "bfgs", "newton")
-    refused(["contact", good, "--tolerance"], "--tolerance", "needs a value")
-    refused(["contact"], "FCLib files")
-    refused(["contact", "nothing.hdf5"], "nothing.hdf5", "no such file")
-    refused(["contact", "."], "no such file")
+        refused_contact([good, "--max-seconds", limit], "--max-seconds")
+    refused_contact([good, "--solver", "bfgs"], "bfgs", "newton")
+    refused_contact([good, "--tolerance"], "--tolerance", "needs a value")
+    refused_contact([good, "--tolerance=1e-8", "--tolerance=1e-9"], "--tolerance", "twice")
+    refused_contact([good, "--output", "x"], "no option --output")
+    expect("--write-solutions" in succeeds(contact_program("--help")), "help")
+    for arguments in ([good, "--tolerance", "1e-8"], ["--help"], []):
+        refused(["contact", *arguments], "voussoir-contact")
+    refused_contact([], "FCLib files")
+    refused_contact(["nothing.hdf5"], "nothing.hdf5", "no such file")
+    refused_contact(["."], "no such file")
     write("a_file", "")
-    refused(["contact", good, "--write-solutions", "a_file"], "a_file")
-    refused(["contact", good, "--write-solutions", "a_file/below"], "a_file/below")
+    refused_contact([good, "--write-solutions", "a_file"], "a_file")
+    refused_contact([good, "--write-solutions", "a_file/below"], "a_file/below")
     # Two files of one name would overwrite each other's solution.
     Path("other").mkdir(exist_ok=True)
     shutil.copy(good, "other")
-    refused(["contact", good, f"other/{Path(good).name}", "--write-solutions", "both"], Path(good).stem)
+    refused_contact([good, f"other/{Path(good).name}", "--write-solutions", "both"], Path(good).stem)
 
     # The bad files of test_contact_files
     bad = Path("../../contact_files").resolve()
@@ -936,9 +951,9 @@ def contact():
                        "few_pointers": "W/p", "negative_mu": "friction", "nan_q": "vectors/q", "index": "column 9",
                        "negative_index": "column -1", "values_too_many": "W/x",
                        "bilateral": "bilateral", "global": "global problem", "no_mu": "vectors/mu"}.items():
-        refused(["contact", str(bad / f"{name}.hdf5")], f"{name}.hdf5", part)
+        refused_contact([str(bad / f"{name}.hdf5")], f"{name}.hdf5", part)
     # Bad files among good ones: a line each, the good ones are solved.
-    result = voussoir("contact", good, str(bad / "nan_q.hdf5"), str(bad / "longer_triplets.hdf5"), small[1])
+    result = contact_program(good, str(bad / "nan_q.hdf5"), str(bad / "longer_triplets.hdf5"), small[1])
     lines = result.stderr.splitlines()
     expect(result.returncode == 2 and [json.loads(x)["file"] for x in result.stdout.splitlines()] == [good, small[1]] and
            len(lines) == 3 and all(x.startswith("voussoir: error: ") for x in lines) and "nan_q" in lines[0] and

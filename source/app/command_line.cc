@@ -5,7 +5,6 @@
 #include <voussoir/app/command_line.h>
 #include <voussoir/app/command_options.h>
 #include <voussoir/app/completion.h>
-#include <voussoir/app/contact_command.h>
 #include <voussoir/app/declared_entries.h>
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/modes_command.h>
@@ -200,9 +199,6 @@ namespace Voussoir
 #ifndef VOUSSOIR_WITH_ARPACK
       result += "; no natural frequencies (ARPACK)";
 #endif
-#ifndef VOUSSOIR_WITH_FCLIB
-      result += "; no contact problems (FCLib)";
-#endif
       return result;
     }
   } // namespace
@@ -238,15 +234,6 @@ namespace Voussoir
       print_completion(arguments.words, std::cout);
     else if (arguments.command == "new")
       write_new_scene(arguments.words);
-    else if (arguments.command == "contact")
-    {
-      ContactOptions options;
-      options.tolerance = arguments.value("--tolerance", options.tolerance);
-      options.solver = arguments.value("--solver", options.solver);
-      options.max_seconds = arguments.value("--max-seconds", options.max_seconds);
-      options.solutions = arguments.value("--write-solutions");
-      run_contact(arguments.words, options);
-    }
     else if (!script_of(arguments.command).empty())
       become_script(script_of(arguments.command), words_of(arguments));
     else if (arguments.command.empty() && arguments.words.empty())

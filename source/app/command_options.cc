@@ -69,15 +69,6 @@ namespace Voussoir
          "SCENE.prm",
          "Writes the ground motion of a scene, t, a_x, a_y, a_z [s, m/s^2], and prints a report.",
          {{"--output", "FILE.csv", "the file to write", true}, overrides}},
-        {"contact",
-         "FILE.hdf5...",
-         "Solves frictional contact problems in FCLib's format. Prints a JSON object per file, with CPU "
-         "times.",
-         {{"--tolerance", "X", "largest residual, by default 1e-12"},
-          {"--solver", "NAME",
-           "newton (default, with fallbacks), proximal, sweeps (Gauss-Seidel), paper, fischer-burmeister"},
-          {"--max-seconds", "X", "largest CPU time for each problem [s], by default 10"},
-          {"--write-solutions", "DIR", "write the contact forces into this directory"}}},
         {"accuracy",
          "SCENE.prm",
          "Runs a scene with several meshes and time steps: error and cost, and the cheapest setting that "
@@ -257,6 +248,9 @@ namespace Voussoir
 
   Arguments read_arguments(const std::vector<std::string> &words)
   {
+    if (!words.empty() && words[0] == "contact")
+      throw InputError("`voussoir contact` is now the program `voussoir-contact`, with the same options; "
+                       "`cmake --build build --target voussoir-contact` builds it.");
     Arguments               arguments;
     const std::vector<Word> sorted = sort_out(words);
     for (const Word &word : sorted)

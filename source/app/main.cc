@@ -15,7 +15,7 @@ namespace
     { return std::find(words.begin(), words.end(), word) != words.end(); };
     if (words.empty() || has("--validate") || has("--help") || has("--version"))
       return false;
-    return words[0] != "contact" && words[0] != "parameters" && words[0] != "motion" && words[0] != "mesh";
+    return words[0] != "parameters" && words[0] != "motion" && words[0] != "mesh";
   }
 
   /** Restarts the program with settings that libraries read when they are loaded, unless the user has set them:

@@ -430,7 +430,8 @@ namespace Voussoir
       parameters.first_problem = stage == "shaking" ? state.start_step : 0;
     else
       for (const auto &entry : std::filesystem::directory_iterator(parameters.write_directory))
-        if (entry.path().extension() == ".hdf5" && entry.path().filename().string().rfind("problem-", 0) == 0)
+        if ((entry.path().extension() == ".txt" || entry.path().extension() == ".hdf5") &&
+            entry.path().filename().string().rfind("problem-", 0) == 0)
           std::filesystem::remove(entry.path(), error); // of the previous run
     return parameters;
   }

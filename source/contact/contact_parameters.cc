@@ -24,9 +24,10 @@ namespace Voussoir
         "Contact solver. newton: Newton's method; if it stalls, Gauss-Seidel iterations and then the "
         "proximal point method follow. proximal: proximal point method. sweeps: Gauss-Seidel iterations.",
         Selection(method_names()));
-    prm.add_parameter("Write problems", write_problems,
-                      "true: write the contact problems to OUTPUT/contact as FCLib files, with the initial "
-                      "guess. Requires the law FJA. `voussoir contact` solves the files.");
+    prm.add_parameter(
+        "Write problems", write_problems,
+        "true: write the contact problems to OUTPUT/contact, with the initial guess. Requires the "
+        "law FJA or KSM. `voussoir-contact` solves the files.");
     prm.add_parameter("Write interval", write_interval,
                       "Every N-th contact problem is written, where N is this number [-].", Integer(1));
     prm.leave_subsection();

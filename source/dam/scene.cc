@@ -3,7 +3,6 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/base/units.h>
-#include <voussoir/contact/fclib_io.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/dynamics/impact.h>
@@ -491,8 +490,6 @@ namespace Voussoir
 
   void Scene::check() const
   {
-    if (contact.write_problems)
-      require_fclib();
     mesh.check();
     zone_materials(concrete_zones, "Concrete/Zones");
     foundation.zone_materials();

@@ -3,7 +3,6 @@
 #include <voussoir/joints/joint_system.h>
 
 #include <voussoir/base/error.h>
-#include <voussoir/contact/fclib_io.h>
 #include <voussoir/joints/friction_problem.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh.h>
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <cassert>
 #include <chrono>
-#include <filesystem>
 #include <map>
 #include <set>
 
@@ -398,20 +396,14 @@ namespace Voussoir
     Ranks::on_first(
         [&]
         {
-          const FrictionProblem problem =
+          FrictionProblem problem =
               friction_problem(whole, laws, laws.histories(start, step.has_mean_forces(), memory), b);
           char name[40];
-          std::snprintf(name, sizeof(name), "/problem-%06u.hdf5", n_solved);
-          std::filesystem::remove(parameters.write_directory + name); // file of a step that is repeated
-          Unknowns guess, gap;
+          std::snprintf(name, sizeof(name), "/problem-%06u.txt", n_solved);
           if (problem.q.size() == force.size())
-          {
-            guess = force;
-            whole.multiply(force, gap);
-            for (std::size_t k = 0; k < gap.size(); ++k)
-              gap[k] += problem.q[k];
-          }
-          write_fclib(parameters.write_directory + name, problem, guess, gap);
+            problem.guess = force;
+          problem.guess.resize(problem.q.size(), 0.); // several surfaces of a pair: zero
+          write_friction_problem(parameters.write_directory + name, problem);
         });
   }
 

@@ -34,7 +34,7 @@ namespace Voussoir
                std::regex_match(relative.stem().string(), figure);
       }
       if (folder == "contact/static" || folder == "contact/shaking")
-        return std::regex_match(name, std::regex("problem-[0-9]{6}\\.hdf5"));
+        return std::regex_match(name, std::regex("problem-[0-9]{6}\\.(txt|hdf5)"));
       static const std::regex result(
           "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|blocks|joints|joint_history|joint_"
           "points|joint_cells|joint_pressures|spectrum|floor_spectra|faces|faces_cells|wedges|water_"

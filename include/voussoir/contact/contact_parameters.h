@@ -22,9 +22,9 @@ namespace Voussoir
     unsigned int sweeps = 4;           ///< number of Gauss-Seidel iterations before the first Newton step [-]
     std::string  method = "newton";    ///< one of method_names(); newton includes its fallbacks
     double       max_seconds = std::numeric_limits<double>::infinity(); ///< limit of CPU time per problem [s]
-    bool         write_problems = false; ///< true: write problems as FCLib files
+    bool         write_problems = false; ///< true: write problems for voussoir-contact
     unsigned int write_interval = 1;     ///< every N-th problem is written, where N is this number [-]
-    std::string  write_directory;        ///< directory of the FCLib files; set by the run, not an entry
+    std::string  write_directory;        ///< directory of these problems; set by the run, not an entry
     unsigned int first_problem = 0; ///< number of problems before a resumed run; set by the run, not an entry
 
     /** Declares the entries of subsection "Contact". */

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Spack recipe. Use: spack repo add packaging/spack; spack dev-build -d . voussoir@main
-Without FCLib, which Spack does not have: `voussoir contact` and Contact/Write problems end with a message."""
+Without FCLib, which Spack does not have and the program does not need."""
 
 from spack.package import *  # noqa: F403
 

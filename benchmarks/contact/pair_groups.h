@@ -17,14 +17,6 @@ namespace Voussoir
   /** Returns the groups of the operator @p W. */
   PairGroups find_groups(const BlockSparseMatrix &W);
 
-  /** Returns the operator as one sparse matrix, joint after joint. */
-  BlockSparseMatrix sparse_matrix(const InterfaceOperator &W);
-
-  /** Returns W between surfaces of pairs. @p surfaces: a pair and the matrix of its surface axes (rows) for
-   * each surface, in the order of the pairs. */
-  BlockSparseMatrix sparse_matrix(const BlockSparseMatrix                             &W,
-                                  const std::vector<std::pair<unsigned int, Matrix3>> &surfaces);
-
   /** Returns the symmetric operator @p W in dense blocks of @p groups. */
   InterfaceOperator make_interface_operator(const BlockSparseMatrix &W, const PairGroups &groups);
 } // namespace Voussoir

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "sparse_contact.h"
+
 #include <voussoir/base/blas.h>
-#include <voussoir/contact/sparse_contact.h>
 
 #include <umfpack.h>
 

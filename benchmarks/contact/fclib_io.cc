@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "fclib_io.h"
+
 #include <voussoir/base/error.h>
-#include <voussoir/contact/fclib_io.h>
 
 #ifdef VOUSSOIR_WITH_FCLIB
+#include "problem_file.h"
+
 #include <voussoir/base/guarded.h>
 #include <voussoir/base/output_file.h>
 
@@ -21,11 +24,6 @@ namespace Voussoir
 {
   namespace
   {
-    [[noreturn]] void refuse(const std::string &file, const std::string &what)
-    {
-      throw InputError(file + ": " + what);
-    }
-
     /** Checks of a file before libfclib reads it, since libfclib ends the program if an entry is missing. */
     class Inspector
     {
@@ -34,7 +32,9 @@ namespace Voussoir
       {
         H5Eset_auto(H5E_DEFAULT, nullptr, nullptr);
         if (H5Fis_hdf5(file.c_str()) <= 0)
-          refuse(file, "this is not an HDF5 file. `voussoir contact` reads FCLib files.");
+          refuse(
+              file,
+              "this is not an HDF5 file. `voussoir-contact` reads FCLib files, and the files of Contact/Write problems.");
         handle = H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
         if (handle < 0)
           refuse(file, "the HDF5 file cannot be opened; it may be damaged.");
@@ -92,7 +92,7 @@ namespace Voussoir
       const Inspector in(file);
       if (!in.has("/fclib_local"))
         refuse(file, in.has("/fclib_global")
-                         ? "this is a global problem. `voussoir contact` solves local problems "
+                         ? "this is a global problem. `voussoir-contact` solves local problems "
                            "(\"fclib_local\"). Condense it first: W = H^T M^-1 H, q = H^T M^-1 f + w."
                          : "the file has no problem \"fclib_local\".");
       const std::string W = "/fclib_local/W/", vectors = "/fclib_local/vectors/";
@@ -157,18 +157,7 @@ namespace Voussoir
           for (int k = W.p[line]; k < W.p[line + 1]; ++k)
             W.nz == -2 ? add(line, W.i[k], W.x[k]) : add(W.i[k], line, W.x[k]);
         }
-      std::vector<std::vector<unsigned int>> columns(n);
-      for (unsigned int i = 0; i < n; ++i)
-      {
-        rows[i].try_emplace(i, Matrix3{});
-        for (const auto &entry : rows[i])
-          columns[i].push_back(entry.first);
-      }
-      BlockSparseMatrix result(columns);
-      for (unsigned int i = 0; i < n; ++i)
-        for (const auto &entry : rows[i])
-          result.add(i, entry.first, entry.second);
-      return result;
+      return matrix_of(std::move(rows));
     }
 
     /** Reads the file in this process. The libraries may crash. */
@@ -189,30 +178,13 @@ namespace Voussoir
       result.mu.assign(problem->mu, problem->mu + problem->W->m / 3);
       if (problem->info && problem->info->title)
         result.title = problem->info->title;
-      for (const double x : result.q)
-        if (!std::isfinite(x))
-          refuse(file, "vectors/q has an entry that is not a finite number.");
-      for (std::size_t i = 0; i < result.mu.size(); ++i)
-      {
-        if (!(result.mu[i] >= 0.) || !std::isfinite(result.mu[i]))
-          refuse(file,
-                 "the coefficient of friction of contact " + std::to_string(i) + " must be at least 0.");
-        const Matrix3 &H =
-            result.W.value[std::lower_bound(result.W.column.begin() + result.W.start[i],
-                                            result.W.column.begin() + result.W.start[i + 1], i) -
-                           result.W.column.begin()];
-        if (!(H[0] > 0.) || (result.mu[i] > 0. && !(H[4] > 0. && H[8] > 0.)))
-          refuse(file, "the diagonal of W is not positive at contact " + std::to_string(i) + ".");
-      }
+      check_problem(file, result);
       return result;
     }
   } // namespace
 
   FrictionProblem read_fclib(const std::string &file)
   {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-      refuse(file, "there is no such file.");
     FrictionProblem problem;
     run_guarded(
         "The FCLib file " + file + " cannot be read",
@@ -238,8 +210,7 @@ namespace Voussoir
     return problem;
   }
 
-  void write_fclib(const std::string &file, const FrictionProblem &problem, const Unknowns &guess_force,
-                   const Unknowns &guess_gap)
+  void write_fclib(const std::string &file, const FrictionProblem &problem)
   {
     if (std::filesystem::exists(file))
       refuse(file, "the file already exists. Remove it, or choose another name.");
@@ -275,11 +246,15 @@ namespace Voussoir
     std::remove(file.c_str());
     if (fclib_write_local(&local, file.c_str()) != 1)
       throw WriteError("The contact problem cannot be written to " + file + ".");
-    if (guess_force.empty())
+    if (problem.guess.empty())
       return;
+    Unknowns gap(problem.q.size());
+    problem.W.multiply(problem.guess.data(), gap.data());
+    for (std::size_t k = 0; k < gap.size(); ++k)
+      gap[k] += problem.q[k];
     fclib_solution guess{};
-    guess.r = const_cast<double *>(guess_force.data());
-    guess.u = const_cast<double *>(guess_gap.data());
+    guess.r = const_cast<double *>(problem.guess.data());
+    guess.u = gap.data();
     if (fclib_write_guesses(1, &guess, file.c_str()) != 1)
       throw WriteError("The initial guess cannot be written to " + file + ".");
   }
@@ -294,7 +269,7 @@ namespace Voussoir
   void require_fclib()
   {
     throw InputError(
-        "This program was built without FCLib, so `voussoir contact` and Contact/Write problems do not work. "
+        "This program was built without FCLib, so it reads only the files of Contact/Write problems. "
         "Install libfclib and HDF5, and build with -DVOUSSOIR_WITH_FCLIB=ON.");
   }
 
@@ -304,7 +279,7 @@ namespace Voussoir
     return {};
   }
 
-  void write_fclib(const std::string &, const FrictionProblem &, const Unknowns &, const Unknowns &)
+  void write_fclib(const std::string &, const FrictionProblem &)
   {
     require_fclib();
   }
