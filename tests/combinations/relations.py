@@ -485,7 +485,8 @@ RELATIONS = {
     bonded: lambda s: has_mesh_file(s) and is_numbered(s) and (s["base joint"] != "none" or s["lift joints"] != "none") and s[
         "Joints/Initial gaps"] in ("none", "contraction"),
     one_body: lambda s: has_mesh_file(s) and s["base joint"] == s["lift joints"] == "none" and s["joint 1"] == "as all" and s["Mesh/GRID/Joints"] != "0" and
-    s["Joints/Initial gaps"] == "none" and s["Statics/Stages"] in ("none", "fill", "day"),
+    s["Joints/Initial gaps"] == "none" and s["Statics/Stages"] in ("none", "fill", "day") and s[
+        "Reservoir/Model"] != "acoustic",  # a node of the water belongs to one monolith
     zero_gaps: lambda s: has_joints(s) and s["Joints/Initial gaps"] == "none",
     equal_modulus: lambda s: s["sustained moduli"] == "none",
     equal_abutments: lambda s: s["Foundation/Model"] == "massless" and s["Motion/Source"] == "file" and s["Motion/Abutments"] == s["sequence"] == "none",
