@@ -376,7 +376,8 @@ namespace Voussoir
                        number_text(std::floor(memory / gib)) +
                        " GiB of this computer. Increase Reservoir/Element size, or reduce Reservoir/Length. "
                        "The defaults are a sixteenth of the depth, and two depths.");
-    if (reservoir.is_acoustic() && factor > 2. * largest_mass_factor) // certainly, before the mesh is built
+    if (n > 1e5 && reservoir.is_acoustic() &&
+        factor > 2. * largest_mass_factor) // certainly, before a mesh of seconds
     {
       const double       more = 1.1 * std::sqrt(factor / largest_mass_factor);
       std::ostringstream text;
