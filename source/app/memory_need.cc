@@ -376,8 +376,7 @@ namespace Voussoir
                        number_text(std::floor(memory / gib)) +
                        " GiB of this computer. Increase Reservoir/Element size, or reduce Reservoir/Length. "
                        "The defaults are a sixteenth of the depth, and two depths.");
-    if (n > 1e5 && reservoir.is_acoustic() &&
-        factor > 2. * largest_mass_factor) // certainly, before a mesh of seconds
+    if (n > 1e5 && reservoir.is_acoustic() && factor > 2. * largest_mass_factor)
     {
       const double       more = 1.1 * std::sqrt(factor / largest_mass_factor);
       std::ostringstream text;
