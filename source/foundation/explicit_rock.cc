@@ -95,8 +95,9 @@ namespace Voussoir
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
     model = make_rock_part(mesh, rock, find, parameters.n_substeps());
-    static_state = std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
-                                                     !dam.on_footings.empty());
+    static_state =
+        std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
+                                          !dam.on_footings.empty(), parameters.boundary == "fixed");
     arrives = times_to(model, lowest_base_place(model, at_base, centre),
                        region_parameters(parameters, centre, 0.).incidence);
     mesh = HexMesh(); // no longer needed

@@ -104,8 +104,8 @@ namespace Voussoir
   }
 
   RockStaticState::RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes,
-                                   const double ratio, const bool has_footings)
-      : model(model), base_nodes(base_nodes), ratio(ratio), has_footings(has_footings)
+                                   const double ratio, const bool has_footings, const bool is_held)
+      : model(model), base_nodes(base_nodes), ratio(ratio), has_footings(has_footings), is_held(is_held)
   {
   }
 
@@ -138,8 +138,12 @@ namespace Voussoir
       for (const BaseNode &base_node : base_nodes)
         for (unsigned int c = 0; c < 3; ++c)
           centre[c] += model.points[base_node.rock][c] / base_nodes.size();
-      rock = std::make_unique<RockStatics>(model, std::vector<bool>(model.points.size(), false),
-                                           springs_of_far_rock(model, centre));
+      std::vector<bool> held(model.points.size(), false);
+      for (const BoundaryFace &face : model.faces)
+        for (const unsigned int node : face.nodes)
+          held[node] = is_held;
+      rock = std::make_unique<RockStatics>(model, held,
+                                           is_held ? NodeSprings() : springs_of_far_rock(model, centre));
       log.line("Rock      static solution with %u unknowns; multigrid set up in %.1f s", rock->n_unknowns(),
                rock->seconds_setup());
     }

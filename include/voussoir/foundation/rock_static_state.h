@@ -25,9 +25,10 @@ namespace Voussoir
      * @param model rock model with its stiffness matrix
      * @param base_nodes base nodes of the dam
      * @param ratio factor of the stiffness matrix: sustained over Young's modulus [-]
-     * @param has_footings the dam has footings, see with_footings() */
+     * @param has_footings the dam has footings, see with_footings()
+     * @param is_held true: the outer boundary is fixed, not on springs_of_far_rock() */
     RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes, double ratio,
-                    bool has_footings = false);
+                    bool has_footings, bool is_held);
 
     /** Returns the springs at the base nodes, see BaseSupport::static_springs(). They are ten times as stiff
      * as the stiffest base node of the monoliths in x. */
@@ -56,7 +57,7 @@ namespace Voussoir
     const RockModel             &model;
     const std::vector<BaseNode> &base_nodes;
     const double                 ratio;
-    const bool                   has_footings;
+    const bool                   has_footings, is_held;
     std::unique_ptr<RockStatics> rock;            ///< solver of the rock, from the first solve() on
     unsigned int                 n_solutions = 0; ///< number of solutions of the rock so far
   };
