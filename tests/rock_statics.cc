@@ -174,7 +174,7 @@ namespace
   void far_rock()
   {
     const double springs = half_space(false), held = half_space(true);
-    expect(springs < .1 && springs < .3 * held,
+    expect(springs < .06 && springs < .3 * held,
            "springs of the far rock: " + std::to_string(springs) + ", held: " + std::to_string(held));
   }
 

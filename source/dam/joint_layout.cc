@@ -163,9 +163,12 @@ namespace Voussoir
     {
       models.push_back(tie_all ? "tied" : scene.joints.model_of(joint));
       gaps.push_back(tie_all ? 0. : scene.joints.gap_of(joint));
-      tied = tied && models.back() == "tied";
+      const bool is_open = models.back() != "tied";
+      tied = tied && !is_open;
+      has_open_bases = has_open_bases || (is_open && joint.is_base());
+      has_open_lifts = has_open_lifts || (is_open && joint.is_lift());
       laws.of_joint.push_back(make_joint_law(models.back(), scene.joints.law(scene.concrete.young)));
-      if (gaps.back() > 0. && models.back() == "tied")
+      if (gaps.back() > 0. && !is_open)
         throw InputError("Entry \"Joints/Initial gaps\" has a gap of " + joint.name() +
                          ", but this joint is tied. Set another model (\"Joints/Model\" or "
                          "\"Joints/Overrides\"), or remove the gap.");
@@ -213,13 +216,12 @@ namespace Voussoir
                { return joints[j].is_inside_monolith() && (all || models[j] == "tied"); });
   }
 
-  std::set<int> JointLayout::open_bases()
+  std::set<int> JointLayout::open_bases() const
   {
     std::set<int> sides;
     for (std::size_t j = 0; j < joints.size(); ++j)
       if (joints[j].is_base() && models[j] != "tied")
         sides.insert(PhysicalId::joint_side_2 + joints[j].number);
-    has_open_bases = !sides.empty();
     return sides;
   }
 
@@ -244,9 +246,6 @@ namespace Voussoir
       group_by_monolith(structure);
     remove_keys_at_base(joints, models, structure);
     structure.clusters = clusters_of(structure.pairs);
-    has_open_lifts = std::any_of(joints.begin(), joints.end(),
-                                 [&](const Joint &joint)
-                                 { return joint.is_lift() && models[joint.number - 1] != "tied"; });
     for (const auto &cluster : structure.clusters)
       for (const unsigned int p : cluster)
         if (const unsigned int j = structure.pairs[p].joint; models[j] == "KSM")

@@ -130,7 +130,7 @@ namespace Voussoir
         break; // an invariant space
       if (!(size > 0.))
         throw ComputationError(
-            n_free == 0 ? "All rock nodes are held."
+            n_free == 0 ? "All rock nodes are on the surface \"artificial boundary\". Refine the rock."
                         : "The stiffness matrix of the rock (" + std::to_string(n_free) +
                               " unknowns) is not positive definite. Connect all parts of the rock to each "
                               "other and to the surface \"artificial boundary\", and improve distorted "

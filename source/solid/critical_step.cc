@@ -6,9 +6,8 @@
 
 namespace Voussoir
 {
-  /** Lanczos' method for D K D with D = M^(-1/2). The estimate of
-   * its square is a lower bound, so the residual is added (Zhou and Li 2011, Linear Algebra Appl. 435,
-   * 480-493). The iteration ends with a residual of 1e-5 of the square. */
+  /** Lanczos' method for D K D with D = M^(-1/2). The estimate of the square is a lower bound, so the residual is added
+   * (Zhou and Li 2011, Linear Algebra Appl. 435, 480-493). The iteration ends with a residual of 1e-5 of the square. */
   double largest_frequency(const std::function<void(const double *x, double *y)> &multiply,
                            const std::vector<double>                             &mass)
   {

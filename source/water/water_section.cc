@@ -340,7 +340,7 @@ namespace Voussoir
         place.push_back(bank.nearest(section.points[node]).first);
         moving.erase(node);
       }
-      std::vector<Point2> before; // of this sweep: the mesh of a symmetric section is symmetric
+      std::vector<Point2> before; // of this iteration: the mesh of a symmetric section is symmetric
       const auto          relaxed = [&](const unsigned int node)
       {
         Point2 sum{};

@@ -33,8 +33,8 @@ namespace Voussoir
     /** Ties the joints inside monoliths: all, or those with the model "tied". */
     void tie_parts(SolidModel &model, bool all) const;
 
-    /** Returns the surfaces of the base joints that are not tied, and sets #has_open_bases. */
-    std::set<int> open_bases();
+    /** Returns the surfaces of the base joints that are not tied. */
+    std::set<int> open_bases() const;
 
     /** Groups and sorts the pairs: the lift and base joints of monolith m belong to the contraction joint m - 1. */
     void group_by_monolith(Structure &structure) const;

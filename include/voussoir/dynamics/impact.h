@@ -36,8 +36,8 @@ namespace Voussoir
    * displacements, pair by pair. Without it, the force of a closed pair oscillates from step to step
    * (doc/failures.md, Plain Newmark).
    *
-   * The impulses of a cluster are computed together by Gauss-Seidel iterations. Their sum never adds energy; otherwise only the normal velocities of
-   * the cluster are corrected. The structure and the laws must outlive the object. */
+   * The impulses of a cluster are computed together by Gauss-Seidel iterations. If their sum would add energy, only the
+   * normal velocities of the cluster are corrected. The structure and the laws must outlive the object. */
   class Impact : PairClusters
   {
   public:

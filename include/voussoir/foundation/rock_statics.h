@@ -23,9 +23,8 @@ namespace Voussoir
   {
   public:
     /** Creates the multigrid levels. @p held: nodes of the @p model with zero displacement. @p springs: added to its
-     * stiffness. The @p model must
-     * outlive the object. @p make_coarse_solver: solver of the coarse problem. Throws ComputationError if the
-     * stiffness matrix is not positive definite, or if the coarse solver fails. Must be called by all ranks. */
+     * stiffness. The @p model must outlive the object. @p make_coarse_solver: solver of the coarse problem. Throws
+     * ComputationError if the stiffness matrix is not positive definite, or if the coarse solver fails. Must be called by all ranks. */
     RockStatics(const RockModel &model, const std::vector<bool> &held, NodeSprings springs,
                 const MakeCoarseRock &make_coarse_solver = make_coarse_rock);
     ~RockStatics();
