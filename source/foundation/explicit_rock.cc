@@ -60,6 +60,15 @@ namespace Voussoir
       return {{centre[0], centre[1], lowest}};
     }
 
+    /** Returns the mean position of the base nodes of the rock, each once however many monoliths stand on it [m]. */
+    Vector3 centre_of(const std::vector<Vector3> &points, const std::vector<BaseNode> &at_base)
+    {
+      Vector3 sum{};
+      for (const BaseNode &f : at_base)
+        add(sum, points[f.rock]);
+      return {{sum[0] / at_base.size(), sum[1] / at_base.size(), sum[2] / at_base.size()}};
+    }
+
     /** Returns the travel times of the waves with motion in x, y and z to the lowest base node, those of
      * oblique waves with the largest delay [s]. */
     Vector3 times_to(const RockModel &model, const Vector3 &place, const Incidence &incidence)
@@ -77,16 +86,7 @@ namespace Voussoir
   void ExplicitRock::add_stiffness(const SolidModel &dam, Structure &)
   {
     check_boundary_layers(parameters, mesh, source, generated_in);
-    unsigned int count = 0;
-    for (unsigned int i = 0; i < dam.n_nodes(); ++i)
-      if (dam.on_surface(i, PhysicalId::base))
-      {
-        for (unsigned int c = 0; c < 3; ++c)
-          centre[c] += dam.points[i][c];
-        ++count;
-      }
-    for (double &c : centre)
-      c /= count;
+    centre = centre_of(mesh.nodes, find_base_nodes(dam, mesh.nodes, source));
     const auto find = [&](const std::vector<Vector3> &points)
     {
       at_base = find_base_nodes(dam, points, source);

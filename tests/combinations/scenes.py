@@ -51,7 +51,7 @@ def call(words, ranks=1, threads=1, limit=300, served=True):
             SERVERS.append(OF_THREAD.server)
         result = OF_THREAD.server.run(words, limit)
     else:
-        start = ["mpirun", "--oversubscribe", "-np", str(ranks)] if ranks > 1 else []
+        start = ["mpirun", "--oversubscribe", "--mca", "mpi_yield_when_idle", "1", "-np", str(ranks)] if ranks > 1 else []
         try:
             result = subprocess.run([*start, run_program.VOUSSOIR, *words], capture_output=True, text=True, timeout=3 * limit, check=False,
                                     env={**os.environ, **ROOT, "OMP_NUM_THREADS": str(threads)})
