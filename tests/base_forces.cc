@@ -113,7 +113,7 @@ namespace
           if (e != rigid_ground)
             for (unsigned int c = 0; c < 3; ++c)
               a[c] = step.acceleration[3 * e + c] +
-                     as_run.structure.mass_damping *
+                     as_run.structure.damping.mass *
                          ((step.after[3 * e + c] - step.before[3 * e + c]) / step.dt - step.base_velocity[c]);
           Vector3 force = structure.mass[all] * a - get(load, all);
           if (staged)

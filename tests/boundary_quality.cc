@@ -38,7 +38,7 @@ namespace
     {
       RockDamping damping;
       damping.quality = quality;
-      const Relaxation   law(damping);
+      const Relaxation   law = relaxation_of(damping);
       constexpr unsigned n = 400;
       for (unsigned int k = 0; k <= n; ++k)
       {
@@ -52,8 +52,8 @@ namespace
     below("quality factor 10 to 1000, 0.5 to 10 Hz: relative error", of_quality,
           RockDamping::error_of_quality);
     below("  velocity in the middle of the band: relative error", of_velocity, 1e-12);
-    Columns::between("  modulus without a quality factor", Relaxation(RockDamping()).modulus(3.).real(), 1.,
-                     1.);
+    Columns::between("  modulus without a quality factor", relaxation_of(RockDamping()).modulus(3.).real(),
+                     1., 1.);
   }
 
   /** The values that doc/rock.md states: s, wave velocities at the ends of the band, Q outside of the band. */
@@ -64,7 +64,7 @@ namespace
     {
       RockDamping damping;
       damping.quality = quality;
-      const Relaxation  law(damping);
+      const Relaxation  law = relaxation_of(damping);
       const auto        at = [&](const double f) { return law.modulus(2. * pi * f); };
       const auto        velocity = [&](const double f) { return 1. / (1. / std::sqrt(at(f))).real(); };
       const std::string name = "Q " + Columns::text(quality) + ": ";
@@ -127,7 +127,7 @@ namespace
       for (unsigned int c = 0; c < 3 && i * p.dt > 19. * period; ++c)
         largest[c] = std::max(largest[c], std::abs(u[c]));
     }
-    const Relaxation           law(p.damping);
+    const Relaxation           law = relaxation_of(p.damping);
     const std::complex<double> i(0., 1.);
     for (unsigned int c = 0; c < 3; ++c)
     {

@@ -160,7 +160,7 @@ namespace
     {
       column.structure.pairs.push_back(wall(column.node[0][0]));
       column.structure.collect_interfaces();
-      column.structure.mass_damping = mass_damping;
+      column.structure.damping.mass = mass_damping;
       laws.add(&law, 1.);
       ContactParameters parameters;
       parameters.max_iterations = 30;

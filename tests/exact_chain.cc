@@ -95,7 +95,8 @@ namespace
 
   /** Three blocks shaken, with full nodal masses: energy, joint conditions, and going on from a saved state.
    */
-  void chain_in_time(const std::string &law, const ImpactRule rule, const std::string &name)
+  void chain_in_time(const std::string &law, const ImpactRule rule, const std::string &name,
+                     const Damping &damping = {10., 1e-5})
   {
     const SolidModel model(blocks(3, false), 1);
     Structure        structure = with_joints(model, {Material()});
@@ -107,8 +108,7 @@ namespace
       for (unsigned int j = 0; j < 9; ++j)
         structure.mass[i][j] += structure.added_mass[i][j];
     }
-    structure.mass_damping = 10.;
-    structure.stiffness_damping = 1e-5;
+    structure.damping = damping;
     Unknowns amplitude(3 * structure.n_nodes()), load(amplitude);
     for (double &a : amplitude)
       a = 5e4 * random_number();
@@ -201,6 +201,9 @@ namespace
     if (!mean_force())
       chain_in_time("FJA", ImpactRule::paper, "FJA, rule of the paper");
     chain_in_time("FJB", tested_rule, "FJB");
+    Relaxation law = Relaxation::of_ratio(.05, 50., 2000., 3);
+    law.unrelaxed = 1. / law.modulus(2. * pi * 150.).real();
+    chain_in_time("FJA", tested_rule, "FJA, uniform damping", Damping(law));
   }
 } // namespace
 

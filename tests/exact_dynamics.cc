@@ -210,7 +210,7 @@ namespace
     Structure       &s = column.structure;
     s.pairs.push_back(wall(column.node[0][0]));
     s.collect_interfaces();
-    s.stiffness_damping = .04 / (2. * cs * ne / H * std::sin(pi / (4. * ne)));
+    s.damping.stiffness = .04 / (2. * cs * ne / H * std::sin(pi / (4. * ne)));
     const JointLaws laws = make_laws(s, "FJA", mu);
     const double    dt = dt0 / refinement;
     Newmark         newmark(s, laws, tight(), dt, tested_rule);

@@ -170,8 +170,8 @@ namespace
         s.dashpots = column.zero();
         for (unsigned int c = 0; damped && c < 3; ++c)
           s.dashpots[3 * right + c] = 1e6 * (1 + c);
-        s.mass_damping = damped ? 5. : 0.;
-        s.stiffness_damping = damped ? 1e-4 : 0.;
+        s.damping.mass = damped ? 5. : 0.;
+        s.damping.stiffness = damped ? 1e-4 : 0.;
         if (law == "none")
           s.n_joints = 0;
         const JointLaws laws = make_laws(s, law == "none" ? "tied" : law, 0.);

@@ -491,8 +491,8 @@ namespace
     structure.bodies.push_back(std::move(body));
     structure.mass.assign(1, Matrix3{{4., 0., 0., 0., 4., 0., 0., 0., 4.}});
     structure.added_mass.assign(1, Matrix3{{1., 0., 0., 0., 0., 0., 0., 0., 0.}});
-    structure.mass_damping = alpha;
-    structure.stiffness_damping = beta;
+    structure.damping.mass = alpha;
+    structure.damping.stiffness = beta;
     return structure;
   }
 

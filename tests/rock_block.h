@@ -144,7 +144,7 @@ namespace Blocks
     {
       model.free_base();
       structure = assemble_structure(model, {rock}, true);
-      structure.stiffness_damping = stiffness_damping;
+      structure.damping.stiffness = stiffness_damping;
       structure.n_joints = model.n_bodies() - 1;
       for (const Pair &pair : find_pairs(model, structure.n_joints))
         if (!led || pair.place[2] > .5 * cell)

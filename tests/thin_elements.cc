@@ -25,8 +25,8 @@ namespace
                                        {L, 2. * L, 8, rho, cp, cs, thin, thin},
                                        {2. * L, 3. * L, 7, rho, cp, cs, thin, 0.}},
                                       [](const double x) { return x == 0. || x == 180.; });
-    column.structure.mass_damping = .5;
-    column.structure.stiffness_damping = damping;
+    column.structure.damping.mass = .5;
+    column.structure.damping.stiffness = damping;
     return column;
   }
 

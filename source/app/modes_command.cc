@@ -161,6 +161,20 @@ namespace Voussoir
     }
   } // namespace
 
+  std::vector<double> first_frequencies(Scene scene)
+  {
+    if (scene.foundation.model == "rock")
+      scene.foundation.model = "rigid";
+    if (scene.reservoir.is_meshed())
+      scene.reservoir.model = "incompressible";
+    scene.is_for_modes = true;
+    const Dam           dam(scene, true);
+    std::vector<double> result, radiation;
+    for (const NaturalMode &mode : modes_of(dam, 3, radiation))
+      result.push_back(mode.frequency);
+    return result;
+  }
+
   void print_modes(const Scene &scene, const std::string &count_text, const std::string &directory,
                    const std::string &spectrum_choice, const bool json)
   {

@@ -46,12 +46,12 @@ namespace Voussoir
         ++n_modes;
       }
     }
+    law = damping.law(frequency.front());
   }
 
   double ModesDamping::ratio(const std::size_t mode) const
   {
-    const double w = 2. * M_PI * frequency[mode];
-    return .5 * (damping.mass_factor() / w + damping.stiffness_factor() * w);
+    return law.of_mode(2. * M_PI * frequency[mode]).first;
   }
 
   std::pair<double, double> ModesDamping::proposal() const
@@ -62,6 +62,8 @@ namespace Voussoir
 
   std::string ModesDamping::in_words() const
   {
+    if (damping.is_uniform())
+      return damping.in_words(frequency.front());
     const auto [f1, f2] = proposal();
     const bool is_reached = share >= heavy_share;
     return text("proposal: Damping/Frequency 1 = %.3g, Frequency 2 = %.3g (", f1, f2) +
@@ -73,6 +75,8 @@ namespace Voussoir
 
   std::string ModesDamping::warning() const
   {
+    if (damping.is_uniform())
+      return damping.warning();
     std::size_t n_off = 0, worst = 0;
     double      largest = 0.;
     for (std::size_t k = 0; k < n_modes && damping.ratio > 0.; ++k)

@@ -171,6 +171,17 @@ namespace Voussoir
                laws.str().c_str());
     }
 
+    void report_damping(const Dam &dam, Log &log)
+    {
+      const std::vector<double> &f = dam.facts.frequencies;
+      log.line("Damping   %s", dam.scene.damping.in_words(f.empty() ? 0. : f[0]).c_str());
+      std::ostringstream moved;
+      for (const double frequency : f)
+        moved << (moved.tellp() > 0 ? ", " : "") << frequency << " Hz x "
+              << std::round(1e4 * dam.structure.damping.of_mode(2. * M_PI * frequency).second) / 1e4;
+      if (!f.empty())
+        log.line("          first modes of the tied dam, and factor by the damping: %s", moved.str().c_str());
+    }
   } // namespace
 
   void report_setup(const RunState &run, const bool validate, Log &log)
@@ -193,9 +204,7 @@ namespace Voussoir
     report_joints(dam, log);
     dam.foundation->report(log, run.grid());
     report_zones(log, dam.facts.rock_zones, "Foundation/Zones");
-    log.line("Damping   Rayleigh, C = a M + b K with a = %.4g 1/s, b = %.4g s (%.3g %% at %g and %g Hz)",
-             scene.damping.mass_factor(), scene.damping.stiffness_factor(), 100. * scene.damping.ratio,
-             scene.damping.frequency_1, scene.damping.frequency_2);
+    report_damping(dam, log);
     if (!dam.has_water)
       log.line("Water     none: the reservoir is empty");
     else if (dam.water)

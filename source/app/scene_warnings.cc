@@ -97,13 +97,24 @@ namespace Voussoir
          [](const Scene &s)
          {
            return (s.foundation.model == "rock" && s.foundation.is_subcycled()) ||
-                  (s.foundation.model == "massless" && !Dam::is_one_body(s, all_tied(s)));
+                  (s.foundation.model == "massless" && s.mesh.source != "file" &&
+                   !is_generated_without_joints(s) && !Dam::is_one_body(s, all_tied(s)));
          },
          {"Dynamics/Factors"}},
         {"Motion/Source is none",
          [](const Scene &s) { return s.motion.source == "none"; },
          {"Motion/", "Dynamics/", "Damping/"},
          {"Motion/Source"}},
+        {"Damping/Model is uniform",
+         [](const Scene &s) { return s.damping.is_uniform(); },
+         {"Damping/Frequency 1", "Damping/Frequency 2", "Damping/Mass coefficient",
+          "Damping/Stiffness coefficient"}},
+        {"Damping/Model is Rayleigh",
+         [](const Scene &s) { return !s.damping.is_uniform(); },
+         {"Damping/Band begin", "Damping/Band end", "Damping/Terms", "Damping/Reference frequency"}},
+        {"Damping/Mass coefficient and Stiffness coefficient are given",
+         [](const Scene &s) { return s.damping.mass_coefficient >= 0. && !s.is_for_modes; },
+         {"Damping/Ratio", "Damping/Frequency 1", "Damping/Frequency 2"}},
         {"Motion/Source is artificial",
          [](const Scene &s) { return s.motion.source == "artificial"; },
          {"Motion/File", "Motion/File x", "Motion/File y", "Motion/File z", "Motion/Baseline",

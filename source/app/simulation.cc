@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/memory_need.h>
+#include <voussoir/app/modes_command.h>
 #include <voussoir/app/run_report.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/blas_buffers.h>
@@ -100,6 +101,22 @@ namespace Voussoir
     state.dam = std::make_unique<Dam>(scene);
   }
 
+  namespace
+  {
+    /** Sets uniform damping, which may depend on the first natural frequency of the dam. */
+    void set_damping(Dam &dam, const bool moves)
+    {
+      const DampingParameters &damping = dam.scene.damping;
+      if (!moves || !damping.is_uniform())
+        return;
+      if (damping.needs_first_frequency())
+        dam.facts.frequencies = first_frequencies(dam.scene);
+      dam.structure.damping = damping.law(dam.facts.frequencies.empty() ? 0. : dam.facts.frequencies[0]);
+      if (const std::string warning = damping.warning(); !warning.empty())
+        dam.facts.warnings.push_back(warning);
+    }
+  } // namespace
+
   /** Reads the files of the scene and creates the dam. Throws InputError for invalid input. */
   void Simulation::read_input()
   {
@@ -111,6 +128,7 @@ namespace Voussoir
     rock_wedges(scene); // throws InputError before the dam is assembled
     check_water_size(scene, n_steps > 0 ? motion.dt : 0., log);
     make_dam();
+    set_damping(*state.dam, n_steps > 0);
     const Dam &dam = *state.dam;
     loaded_wedges(scene, *dam.model); // throws InputError
     if (!scene.statics.stages.empty())

@@ -106,14 +106,24 @@ namespace Voussoir
 
   namespace
   {
-    Json json_of_damping(const DampingParameters &damping)
+    Json json_of_damping(const Dam &dam)
     {
-      Json json;
-      json.add("ratio", damping.ratio)
-          .add("frequency_1", damping.frequency_1)
-          .add("frequency_2", damping.frequency_2)
-          .add("mass_factor", damping.mass_factor())
-          .add("stiffness_factor", damping.stiffness_factor());
+      const DampingParameters &damping = dam.scene.damping;
+      Json                     json;
+      json.add("model", damping.model).add("ratio", damping.ratio);
+      if (damping.is_uniform())
+      {
+        const double first = dam.facts.frequencies.empty() ? 0. : dam.facts.frequencies[0];
+        json.add("band_begin", damping.band_begin)
+            .add("band_end", damping.band_end)
+            .add("reference_frequency", damping.needs_first_frequency() ? first : damping.reference_frequency)
+            .add("static_modulus", dam.structure.damping.modulus);
+      }
+      else
+        json.add("frequency_1", damping.frequency_1)
+            .add("frequency_2", damping.frequency_2)
+            .add("mass_factor", damping.mass_factor())
+            .add("stiffness_factor", damping.stiffness_factor());
       return json;
     }
 
@@ -195,7 +205,7 @@ namespace Voussoir
         .add("zones", json_of_zones(dam))
         .add("joints", json_of_joints(scene))
         .add("unknowns", unknowns)
-        .add("damping", json_of_damping(scene.damping))
+        .add("damping", json_of_damping(dam))
         .add("water", json_of_water(dam))
         .add("loads", json_of_loads(dam));
     if (run.n_steps > 0)

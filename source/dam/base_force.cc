@@ -345,7 +345,7 @@ namespace Voussoir
   {
     const Structure &structure = dam.structure;
     const bool       moves = step.dt > 0.;
-    const double     damping = moves ? structure.stiffness_damping / step.dt : 0.;
+    const double     damping = moves ? structure.damping.stiffness / step.dt : 0.;
     const auto       change = [&](const unsigned int node)
     { return get(step.after, node) - get(step.before, node); };
     std::vector<Wrench> result = constant;
@@ -357,7 +357,7 @@ namespace Voussoir
         const Vector3      du = change(node);
         Vector3            u = get(step.after, node); // mean, with the damping term
         for (unsigned int c = 0; c < 3; ++c)
-          u[c] += (damping - .5) * du[c];
+          u[c] += (damping - .5) * du[c] + (step.relaxation.empty() ? 0. : step.relaxation[3 * node + c]);
         add_product(result[b], stiffness[b].part[k], u);
       }
       for (std::size_t k = 0; moves && k < mass[b].node.size(); ++k)
@@ -366,7 +366,7 @@ namespace Voussoir
         const Vector3      du = change(node);
         Vector3            a = get(step.acceleration, node);
         for (unsigned int c = 0; c < 3; ++c)
-          a[c] += structure.mass_damping * (du[c] / step.dt - step.base_velocity[c]);
+          a[c] += structure.damping.mass * (du[c] / step.dt - step.base_velocity[c]);
         add_product(result[b], mass[b].part[k], a);
       }
       if (moves)

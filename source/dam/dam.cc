@@ -131,7 +131,8 @@ namespace Voussoir
 
   bool Dam::is_one_body(const Scene &scene, const bool tied)
   {
-    return tied || impact_rule(scene.impact_rule) != ImpactRule::mean_force || scene.contact.write_problems;
+    return (tied && (scene.is_for_modes || !scene.damping.is_uniform())) ||
+           impact_rule(scene.impact_rule) != ImpactRule::mean_force || scene.contact.write_problems;
   }
 
   /** Creates the model and the structure with the foundation. */
@@ -187,8 +188,7 @@ namespace Voussoir
         find_weight_on_joints();
       geometry = std::make_unique<DamGeometry>(*model, structure.pairs, n_all, source);
     }
-    structure.mass_damping = scene.damping.mass_factor();
-    structure.stiffness_damping = scene.damping.stiffness_factor();
+    structure.damping = scene.damping.law();
     foundation->add_stiffness(*model, structure);
     structure.n_joints = layout.tied ? 0 : n_all;
     structure.collect_interfaces();

@@ -31,45 +31,6 @@ namespace Voussoir
     prm.leave_subsection();
   }
 
-  void DampingParameters::add_parameters(Entries &prm)
-  {
-    prm.enter_subsection("Damping");
-    prm.add_parameter("Ratio", ratio, "Damping ratio of the Rayleigh damping at the two frequencies [-].",
-                      {.001, .2, true}, Patterns::Double(0., 1.));
-    prm.add_parameter("Frequency 1", frequency_1, "Lower frequency with this damping ratio [Hz].", {0., 20.},
-                      Patterns::Double(1e-6));
-    prm.add_parameter("Frequency 2", frequency_2, "Upper frequency with this damping ratio [Hz].", {.5, 100.},
-                      Patterns::Double(1e-6));
-    prm.leave_subsection();
-  }
-
-  void DampingParameters::add_choices(ModelChoices &choices) const
-  {
-    for (const double other : {.03, .1})
-      if (ratio != other)
-        choices.add("material", "damping " + number_text(100. * other) + " %", "Damping/Ratio", other);
-  }
-
-  void DampingParameters::check() const
-  {
-    if (!(frequency_2 > frequency_1))
-      throw InputError("Entry \"Damping/Frequency 2\" (" + number_text(frequency_2) +
-                       " Hz) must be larger than \"Damping/Frequency 1\" (" + number_text(frequency_1) +
-                       " Hz). Exchange or correct the frequencies.");
-  }
-
-  constexpr double two_pi = 6.28318530717958647693;
-
-  double DampingParameters::mass_factor() const
-  {
-    return 2. * ratio * two_pi * frequency_1 * frequency_2 / (frequency_1 + frequency_2);
-  }
-
-  double DampingParameters::stiffness_factor() const
-  {
-    return 2. * ratio / (two_pi * (frequency_1 + frequency_2));
-  }
-
   void JointParameters::add_parameters(Entries &prm)
   {
     prm.enter_subsection("Joints");
@@ -494,6 +455,11 @@ namespace Voussoir
     zone_materials(concrete_zones, "Concrete/Zones");
     foundation.zone_materials();
     damping.check();
+    if (damping.is_uniform() && foundation.model == "massless" &&
+        (impact_rule != "mean-force" || contact.write_problems))
+      throw InputError(
+          "\"Damping/Model\" = uniform on massless rock requires \"Dynamics/Impact\" = mean-force and "
+          "\"Contact/Write problems\" = false. Set these entries, or \"Damping/Model\" = Rayleigh.");
     if (foundation.model == "rock" && foundation.substeps > 1 && !foundation.is_subcycled())
       throw InputError("\"Foundation/Coupling\" = partition with \"Foundation/Substeps\" above 1 was removed "
                        "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "

@@ -39,6 +39,7 @@ namespace Voussoir
     now.load = load;
     now.force = force;
     structure.multiply_stiffness(now.u, now.Ku);
+    now.relaxation = structure.damping.memory_of(now.u, now.Ku);
     account_states();
     const JointEnergy joints = joint_energy();
     now.energy.joint_stored = joints.stored;
@@ -95,7 +96,8 @@ namespace Voussoir
                                              });
     now.energy.kinetic = energies[0] - energies[1];
     now.energy.added_mass = energies[1];
-    now.energy.strain = energies[2] + elastic_energy;
+    now.energy.strain =
+        energies[2] + elastic_energy + structure.damping.more_energy(now.relaxation, now.u, now.Ku);
   }
 
   Vector3 Integrator::opening_and_slip(const unsigned int pair) const

@@ -180,6 +180,7 @@ namespace Voussoir
     structure.add_reaction(-1., change, load);
     structure.multiply_stiffness(u_new, Ku);
     equation->carry(now, dt, u_new, Ku);
+    work.damping = structure.damping.advance(dt, now.u, now.Ku, u_new, Ku, now.relaxation);
     Vector3 base; // mean velocity of the base
     for (unsigned int c = 0; c < 3; ++c)
       base[c] = .5 * (now.base_velocity[c] + step.base_velocity[c]);
@@ -196,7 +197,7 @@ namespace Voussoir
           input += .5 * (load[k] + now.load[k]) * du[c];
           if (!elastic_force.empty())
             input -= elastic_force[k] * du[c];
-          damping += structure.stiffness_damping / dt * (Ku[k] - now.Ku[k]) * du[c];
+          damping += structure.damping.stiffness / dt * (Ku[k] - now.Ku[k]) * du[c];
           if (!structure.dashpots.empty())
             damping += structure.dashpots[k] / dt * du[c] * du[c];
           now.v[k] = 2. / dt * du[c] - now.v[k];
@@ -204,14 +205,14 @@ namespace Voussoir
         }
         const Vector3 relative = {{du[0] - dt * base[0], du[1] - dt * base[1], du[2] - dt * base[2]}};
         const Vector3 momentum = structure.mass[i] * relative;
-        damping += structure.mass_damping / dt * dot(relative, momentum);
-        input -= structure.mass_damping * dot(base, momentum);
+        damping += structure.damping.mass / dt * dot(relative, momentum);
+        input -= structure.damping.mass * dot(base, momentum);
       }
       return std::array<double, 2>{{input, damping}};
     };
     const auto works = sum_of_ranges<std::array<double, 2>>(structure.n_nodes(), move_nodes);
     work.input += works[0];
-    work.damping = works[1];
+    work.damping += works[1];
     now.Ku.swap(Ku);
     now.load.swap(load);
     now.base_velocity = step.base_velocity;
@@ -253,8 +254,9 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        result[k] = now.load[k] - structure.mass_damping * momentum[c] - structure.stiffness_damping * Kv[k] -
-                    now.Ku[k] - (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
+        result[k] = now.load[k] - structure.damping.mass * momentum[c] - structure.damping.stiffness * Kv[k] -
+                    now.Ku[k] - structure.damping.more_force(now.relaxation, now.Ku[k], k) -
+                    (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
       }
     }
     return result;

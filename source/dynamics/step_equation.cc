@@ -6,7 +6,7 @@ namespace Voussoir
 {
   StepOperator trapezoidal_rule(const Structure &structure, const double dt, const double share)
   {
-    return {4. / (dt * dt) + 2. / dt * structure.mass_damping, 1. + 2. / dt * structure.stiffness_damping,
+    return {4. / (dt * dt) + 2. / dt * structure.damping.mass, 1. + structure.damping.more_stiffness(dt),
             2. / dt, share, 1.};
   }
 
@@ -21,7 +21,7 @@ namespace Voussoir
       Vector3 x;
       for (unsigned int c = 0; c < 3; ++c)
         x[c] = c_m * now.u[3 * i + c] + 4. / dt * now.v[3 * i + c] +
-               structure.mass_damping * (now.base_velocity[c] + step.base_velocity[c]);
+               structure.damping.mass * (now.base_velocity[c] + step.base_velocity[c]);
       const Vector3 Mx = structure.mass[i] * x;
       for (unsigned int c = 0; c < 3; ++c)
       {
@@ -29,6 +29,7 @@ namespace Voussoir
         rhs[k] = step.load[k] + now.load[k] + Mx[c] + c_k * now.Ku[k];
       }
     }
+    structure.damping.add_known_forces(dt, now.relaxation, now.Ku, rhs);
     if (share == 1.)
       add_joint_forces(now.force, rhs);
     return rhs;
@@ -59,8 +60,8 @@ namespace Voussoir
                           const Joints &joints) override
       {
         const double dt = step.dt;
-        Unknowns     rhs = known_forces(now, step, 4. / (dt * dt) + 2. / dt * structure.mass_damping,
-                                        2. / dt * structure.stiffness_damping - 1.);
+        Unknowns     rhs = known_forces(now, step, 4. / (dt * dt) + 2. / dt * structure.damping.mass,
+                                        structure.damping.more_stiffness(dt) - 1.);
         for (std::size_t k = 0; k < structure.dashpots.size(); ++k)
           rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
         structure.add_reaction(1., now.u, rhs);

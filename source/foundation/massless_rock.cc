@@ -56,7 +56,7 @@ namespace Voussoir
           place[dam.equation[i]] = dam.points[i];
         for (const unsigned int node : dam_nodes.node)
           places.push_back(place.at(node));
-        damping = structure.stiffness_damping;
+        damping = structure.damping.stiffness;
         if (!one_body)
         {
           spring = static_spring();
@@ -148,7 +148,7 @@ namespace Voussoir
         if (one_body)
           return nullptr;
         dam_nodes.mark(structure);
-        supported = std::make_unique<MasslessSupport>(rock, dam_nodes, structure.stiffness_damping, grid.dt,
+        supported = std::make_unique<MasslessSupport>(rock, dam_nodes, structure.damping.stiffness, grid.dt,
                                                       offset, base_motion.get());
         supported->start_account(at_rest);
         at_rest.clear();

@@ -97,7 +97,7 @@ namespace Voussoir
     for (double &f : force)
       f /= motion.dt;
     use({statics.elastic(u_before), statics.elastic(state.u), acceleration, force, ground, velocity,
-         motion.dt, dam->water ? dam->water->mean_force() : std::vector<Vector3>()});
+         motion.dt, dam->water ? dam->water->mean_force() : std::vector<Vector3>(), state.relaxation.mean});
   }
 
   double RunState::largest_energy() const

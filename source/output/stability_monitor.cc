@@ -44,7 +44,7 @@ namespace Voussoir
   StabilityMonitor::StabilityMonitor(const Dam &dam, const GroundMotion &motion, const Integrator &integrator)
       : dam(dam), u_static(integrator.state().u)
   {
-    const MotionBounds bounds = bounds_of(motion, dam.structure.mass_damping);
+    const MotionBounds bounds = bounds_of(motion, dam.structure.damping.mass);
     const double       strain = integrator.state().energy.strain + dam.foundation->strain_at_start(),
                  v_0 = static_speed(dam.structure, strain);
     velocity_dam = growth_limit * (bounds.oscillator + v_0);

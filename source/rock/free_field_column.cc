@@ -22,7 +22,7 @@ namespace Voussoir
     // Waves of high frequency are faster in rock with a quality factor.
     Vector3 fastest = courant;
     for (double &c : fastest)
-      c *= std::sqrt(Relaxation(damping).unrelaxed);
+      c *= std::sqrt(relaxation_of(damping).unrelaxed);
     u.assign(3 * std::size_t(endless_length(fastest, n_steps)), 0.);
     w = x = u;
     damped = DampedMotion(damping, dt, u.size());

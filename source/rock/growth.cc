@@ -168,7 +168,7 @@ namespace Voussoir
     /** Returns the circular frequency with the given critical time step: the inverse of critical_time_step() [1/s]. */
     double frequency_of(const double critical, const RockDamping &damping)
     {
-      const double s = Relaxation(damping).unrelaxed;
+      const double s = relaxation_of(damping).unrelaxed;
       return std::sqrt((1. - .5 * critical * damping.mass) /
                        (.25 * s * critical * critical + .5 * critical * damping.stiffness));
     }

@@ -6,68 +6,16 @@
 
 namespace Voussoir
 {
-  namespace
-  {
-    constexpr double two_pi = 6.283185307179586;
-
-    using Row = std::array<double, Relaxation::n + 1>;
-
-    /** Solves the normal equations, which are symmetric and positive definite. The last column is the
-     * right-hand side. */
-    std::array<double, Relaxation::n> solved(std::array<Row, Relaxation::n> a)
-    {
-      constexpr unsigned int n = Relaxation::n;
-      for (unsigned int k = 0; k < n; ++k)
-        for (unsigned int i = 0; i < n; ++i)
-          if (i != k)
-          {
-            const double factor = a[i][k] / a[k][k];
-            for (unsigned int j = k; j <= n; ++j)
-              a[i][j] -= factor * a[k][j];
-          }
-      std::array<double, n> result{};
-      for (unsigned int k = 0; k < n; ++k)
-        result[k] = a[k][n] / a[k][k];
-      return result;
-    }
-  } // namespace
-
-  Relaxation::Relaxation(const RockDamping &damping)
+  Relaxation relaxation_of(const RockDamping &damping)
   {
     if (!damping.has_quality())
-      return;
-    // The mechanisms extend beyond the band by this factor, which gives about the smallest error.
-    constexpr double       beyond = 1.4;
-    constexpr unsigned int n_points = 40;
-    const auto             between = [](const double a, const double b, const double share)
-    { return two_pi * a * std::pow(b / a, share); };
-    for (unsigned int l = 0; l < n; ++l)
-      frequency[l] = between(damping.lowest / beyond, beyond * damping.highest, double(l) / (n - 1));
-    // Im(modulus) = Re(modulus)/quality is linear in the weights.
-    std::array<Row, n> normal{};
-    for (unsigned int k = 0; k < n_points; ++k)
-    {
-      const double w = between(damping.lowest, damping.highest, double(k) / (n_points - 1));
-      Row          row;
-      for (unsigned int l = 0; l < n; ++l)
-        row[l] = frequency[l] * (damping.quality * w + frequency[l]) / (frequency[l] * frequency[l] + w * w);
-      row[n] = 1.;
-      for (unsigned int i = 0; i < n; ++i)
-        for (unsigned int j = 0; j <= n; ++j)
-          normal[i][j] += row[i] * row[j];
-    }
-    weight = solved(normal);
-    const double slowness = (1. / std::sqrt(modulus(between(damping.lowest, damping.highest, .5)))).real();
-    unrelaxed = slowness * slowness;
-  }
-
-  std::complex<double> Relaxation::modulus(const double w) const
-  {
-    std::complex<double> result = 1.;
-    for (unsigned int l = 0; l < n; ++l)
-      if (weight[l] != 0.)
-        result -= weight[l] * frequency[l] / std::complex<double>(frequency[l], w);
-    return unrelaxed * result;
+      return Relaxation();
+    // Mechanisms that extend beyond the band by this factor give about the smallest error.
+    Relaxation   law(damping.quality, damping.lowest, damping.highest, DampedMotion::n, 1.4);
+    const double middle = 2. * M_PI * damping.lowest * std::pow(damping.highest / damping.lowest, .5);
+    const double slowness = (1. / std::sqrt(law.modulus(middle))).real();
+    law.unrelaxed = slowness * slowness;
+    return law;
   }
 
   DampedMotion::DampedMotion(const RockDamping &damping, const double dt, const std::size_t n_values)
@@ -75,9 +23,9 @@ namespace Voussoir
   {
     if (!damping.has_quality())
       return;
-    const Relaxation law(damping);
+    const Relaxation law = relaxation_of(damping);
     unrelaxed = law.unrelaxed;
-    weight = law.weight;
+    std::copy(law.weight.begin(), law.weight.end(), weight.begin());
     for (unsigned int l = 0; l < n; ++l)
     {
       const double half = .5 * law.frequency[l] * dt;
@@ -174,7 +122,7 @@ namespace Voussoir
 
   double critical_time_step(const double given, const RockDamping &damping)
   {
-    const double w = given * std::sqrt(Relaxation(damping).unrelaxed);
+    const double w = given * std::sqrt(relaxation_of(damping).unrelaxed);
     const double xi = .5 * (damping.mass + damping.stiffness * given * given) / w;
     return 2. * (std::sqrt(1. + xi * xi) - xi) / w;
   }

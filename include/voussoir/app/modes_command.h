@@ -19,6 +19,10 @@ namespace Voussoir
    * with @p json. */
   void print_modes(const Scene &scene, const std::string &count, const std::string &directory,
                    const std::string &spectrum = "", bool json = false);
+
+  /** Returns the first three natural frequencies of the tied dam with its water [Hz], on a rigid base instead of rock with
+   * mass. */
+  std::vector<double> first_frequencies(Scene scene);
 } // namespace Voussoir
 
 #endif

@@ -10,8 +10,8 @@
 
 namespace Voussoir
 {
-  /** Rayleigh damping of the natural modes: C = a0 M + a1 K gives a mode of the circular frequency w the damping
-   * ratio a0/(2 w) + a1 w/2. */
+  /** Damping of the natural modes: Rayleigh damping C = a M + b K gives a mode of the circular frequency w the ratio
+   * a/(2 w) + b w/2, uniform damping that of its free oscillation. */
   class ModesDamping
   {
   public:
@@ -40,6 +40,7 @@ namespace Voussoir
 
   private:
     const DampingParameters damping;
+    Damping                 law;
     std::vector<double>     frequency; ///< of each mode [Hz]
     std::vector<bool>       is_heavy;  ///< at least 1 % of the effective mass in a direction
     double      share = 0.;            ///< of the effective mass that the significant modes have together [-]

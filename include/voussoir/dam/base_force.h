@@ -50,6 +50,8 @@ namespace Voussoir
 
     /** Mean forces of acoustic water, per node of the model, or empty [N]. */
     std::vector<Vector3> water = {};
+
+    Unknowns relaxation = {}; ///< DampingMemory::mean of the step, or empty [m]
   };
 
   /** Forces of the foundation on the bases of the monoliths. They are the residuals of the equations of

@@ -18,7 +18,8 @@ namespace Voussoir
     unsigned int             n_monoliths = 0;   ///< number of monoliths
     double                   volume = 0.;       ///< of the concrete [m^3]
     double                   crest_length = 0.; ///< see Voussoir::crest_length() [m]
-    double                   added_mass = 0.;   ///< total for motion along x [kg]; 0 without water
+    std::vector<double> frequencies; ///< first of the tied dam with its water [Hz]; only for uniform damping
+    double              added_mass = 0.; ///< total for motion along x [kg]; 0 without water
   };
 } // namespace Voussoir
 

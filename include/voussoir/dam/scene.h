@@ -30,15 +30,34 @@ namespace Voussoir
     void         add_parameters(Entries &prm);
   };
 
-  /** Rayleigh damping C = a0 M + a1 K with a damping ratio at two frequencies. */
+  /** Parameters of the subsection "Damping". */
   struct DampingParameters
   {
-    double ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
-    void   add_parameters(Entries &prm);
-    void   check() const;
-    void   add_choices(ModelChoices &choices) const;
-    double mass_factor() const;      ///< a0 [1/s]
-    double stiffness_factor() const; ///< a1 [s]
+    static constexpr double largest_uniform = .25;
+
+    std::string model = "Rayleigh";
+    double      ratio = .05, frequency_1 = 1.2, frequency_2 = 6.;      ///< [-], [Hz], [Hz]
+    double      mass_coefficient = -1., stiffness_coefficient = -1.;   ///< [1/s], [s]; -1: from the ratio
+    double band_begin = .5, band_end = 20., reference_frequency = -1.; ///< [Hz]; -1: first natural frequency
+    unsigned int terms = 3;                                            ///< mechanisms of uniform damping
+    void         add_parameters(Entries &prm);
+    void         check() const;
+    void         add_choices(ModelChoices &choices) const;
+    bool         is_uniform() const { return model == "uniform"; }
+    bool   needs_first_frequency() const { return is_uniform() && ratio > 0. && reference_frequency < 0.; }
+    double mass_factor() const;      ///< a of Rayleigh damping [1/s]
+    double stiffness_factor() const; ///< b of Rayleigh damping [s]
+    Relaxation relaxation() const;   ///< fit of uniform damping; without weights if there is none
+
+    /** Returns the damping of the dam. @p first_frequency: of the tied dam with its water [Hz], or 0: without this
+     * frequency, uniform damping that needs it is left out. */
+    Damping law(double first_frequency = 0.) const;
+
+    /** Returns the damping in words. @p first_frequency as in law(). */
+    std::string in_words(double first_frequency) const;
+
+    /** Returns a warning if the ratio differs by more than 5 % in its band, or an empty string. */
+    std::string warning() const;
   };
 
   /** Parameters of the subsection "Joints": joint laws and their parameters. */

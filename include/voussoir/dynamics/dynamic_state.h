@@ -2,7 +2,7 @@
 #ifndef voussoir_dynamic_state_h
 #define voussoir_dynamic_state_h
 
-#include <voussoir/base/tensor3.h>
+#include <voussoir/solid/damping.h>
 
 namespace Voussoir
 {
@@ -12,8 +12,8 @@ namespace Voussoir
   {
     double kinetic = 0.;    ///< kinetic energy of the concrete
     double added_mass = 0.; ///< kinetic energy of the added mass of the water
-    double strain = 0.;     ///< strain energy of the concrete
-    double damping = 0.;    ///< dissipation by Rayleigh damping and dashpots
+    double strain = 0.;     ///< strain energy of the concrete, with that of the mechanisms of Damping
+    double damping = 0.;    ///< dissipation by damping and dashpots
     double friction = 0.;   ///< dissipation by friction on faces and flanks of the joints
     double impact = 0.;     ///< remaining work in the joints: loss by impacts
     double input = 0.;      ///< work of all loads and of the support
@@ -52,13 +52,14 @@ namespace Voussoir
     Unknowns u, v;      ///< displacement [m] and velocity [m/s], three values per node
     /** Joint forces, three values per pair in the frame of the pair [N]. With ImpactRule::mean_force they are
      * means over the last step, otherwise values at this time. */
-    Unknowns force;
-    Unknowns load;    ///< nodal loads at this time [N]
-    Unknowns Ku;      ///< stiffness matrix times u [N]
-    Unknowns memory;  ///< history variables of all pairs; at first JointLaws::initial_memory()
-    Carried  carried; ///< see StepEquation
-    Vector3  base_velocity = {{0., 0., 0.}}; ///< velocity of the base, see Newmark::advance() [m/s]
-    Energy   energy;
+    Unknowns      force;
+    Unknowns      load;       ///< nodal loads at this time [N]
+    Unknowns      Ku;         ///< stiffness matrix times u [N]
+    Unknowns      memory;     ///< history variables of all pairs; at first JointLaws::initial_memory()
+    Carried       carried;    ///< see StepEquation
+    DampingMemory relaxation; ///< of the concrete; empty without mechanisms of Damping
+    Vector3       base_velocity = {{0., 0., 0.}}; ///< velocity of the base, see Newmark::advance() [m/s]
+    Energy        energy;
   };
 } // namespace Voussoir
 

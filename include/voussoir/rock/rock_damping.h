@@ -2,9 +2,9 @@
 #ifndef voussoir_rock_damping_h
 #define voussoir_rock_damping_h
 
+#include <voussoir/solid/damping.h>
+
 #include <array>
-#include <complex>
-#include <vector>
 
 namespace Voussoir
 {
@@ -23,27 +23,9 @@ namespace Voussoir
     bool has_quality() const { return quality > 0.; }
   };
 
-  /** Generalised Maxwell body with three relaxation mechanisms (Emmerich and Korn 1987, Geophysics 52,
-   * 1252-1264). All moduli have the same relaxation, so the stress of a displacement u is that of the elastic
-   * rock for the displacement
-   *
-   *     s (u - sum_l Y_l xi_l),    d xi_l / dt = omega_l (u - xi_l),
-   *
-   * and the memory variables xi_l belong to nodes. The factor s makes the velocity of harmonic waves in the
-   * middle of the band (on the logarithmic scale) that of the given moduli. */
-  struct Relaxation
-  {
-    static constexpr unsigned int n = 3;
-    std::array<double, n>         frequency{}, weight{}; ///< omega_l [1/s] and Y_l [-]
-    double                        unrelaxed = 1.; ///< s: modulus at infinite frequency over the given modulus
-
-    /** Fits the weights to the quality factor by least squares at frequencies in the band. Without a quality
-     * factor, the weights are zero. */
-    explicit Relaxation(const RockDamping &damping);
-
-    /** Returns the complex modulus at the circular frequency @p w [1/s], relative to the given modulus. */
-    std::complex<double> modulus(double w) const;
-  };
+  /** Returns the relaxation for the quality factor of the rock, elastic without it. The velocity of harmonic waves in the
+   * middle of the band (on the logarithmic scale) is that of the given moduli. */
+  Relaxation relaxation_of(const RockDamping &damping);
 
   /** Displacements x whose elastic forces are those of the damped rock, except for mass-proportional damping:
    * x = u + stiffness w without a quality factor, where w is the velocity half a step before u. With a
@@ -51,6 +33,8 @@ namespace Voussoir
   class DampedMotion
   {
   public:
+    static constexpr unsigned int n = 3; ///< number of mechanisms
+
     DampedMotion() = default;
     /** Creates the state of rest of @p n_values displacements. */
     DampedMotion(const RockDamping &damping, double dt, std::size_t n_values);
@@ -81,8 +65,7 @@ namespace Voussoir
     std::vector<std::vector<double> *> state();
 
   private:
-    static constexpr unsigned int n = Relaxation::n;
-    double                        dt = 0., stiffness = 0., unrelaxed = 1.;
+    double                dt = 0., stiffness = 0., unrelaxed = 1.;
     std::array<double, n> weight{}, kept{}, added{};  ///< xi(t + dt) = kept xi + added (u(t) + u(t + dt))
     std::array<std::vector<double>, n> memory, force; ///< xi_l [m], and s K xi_l [N]
   };

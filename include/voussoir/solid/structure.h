@@ -4,6 +4,7 @@
 
 #include <voussoir/base/node_matrix.h>
 #include <voussoir/base/ranks.h>
+#include <voussoir/solid/damping.h>
 
 #include <string>
 
@@ -65,9 +66,8 @@ namespace Voussoir
 
     /** Clusters of pairs that share nodes, where joints cross; see clusters_of(). */
     std::vector<std::vector<unsigned int>> clusters;
-    double mass_damping = 0.;      ///< Rayleigh: C = mass_damping M + stiffness_damping K + dashpots [1/s]
-    double stiffness_damping = 0.; ///< [s]
-    bool   plane_strain = false;   ///< true: displacements along y are zero, see decouple_y()
+    Damping                                damping; ///< besides the dashpots
+    bool plane_strain = false; ///< true: displacements along y are zero, see decouple_y()
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(mass.size()); }
 

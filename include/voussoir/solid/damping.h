@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_damping_h
+#define voussoir_damping_h
+
+#include <voussoir/base/tensor3.h>
+
+#include <complex>
+#include <vector>
+
+namespace Voussoir
+{
+  /** Generalised Maxwell body (Emmerich and Korn 1987, Geophysics 52, 1252-1264). All moduli have the same relaxation,
+   * so the stress of a displacement u is that of the elastic body for the displacement
+   *
+   *     unrelaxed (u - sum_l Y_l xi_l),    d xi_l / dt = omega_l (u - xi_l),
+   *
+   * and the memory variables xi_l belong to nodes. */
+  struct Relaxation
+  {
+    std::vector<double> frequency, weight; ///< omega_l [1/s] and Y_l [-] of each mechanism
+    double              unrelaxed = 1.;    ///< modulus at infinite frequency over the given modulus [-]
+
+    /** Elastic body. */
+    Relaxation() = default;
+
+    /** Fits the weights of @p n mechanisms to a quality factor by least squares, at 40 frequencies between @p lowest
+     * and @p highest [Hz]. The mechanisms extend beyond this band by the factor @p beyond. */
+    Relaxation(double quality, double lowest, double highest, unsigned int n, double beyond);
+
+    /** Returns the body of @p n mechanisms whose free oscillations have the damping ratio @p ratio in the band, with
+     * the smallest largest error that a choice of the mechanisms' frequencies gives. */
+    static Relaxation of_ratio(double ratio, double lowest, double highest, unsigned int n);
+
+    /** Returns the complex modulus at the complex circular frequency @p w [1/s], relative to the given modulus. */
+    std::complex<double> modulus(std::complex<double> w) const;
+
+    /** Returns the root lambda with positive imaginary part of lambda^2 + w^2 modulus(-i lambda) = 0: the free
+     * oscillation exp(lambda t) of an oscillator that has the circular frequency @p w [1/s] with the given modulus. Its
+     * damping ratio is -Re(lambda)/|lambda|. */
+    std::complex<double> pole(double w) const;
+
+    /** Returns the smallest and the largest relative error of the damping ratio in a band [-]. */
+    std::pair<double, double> error_of(double ratio, double lowest, double highest) const;
+  };
+
+  /** State of the relaxation: displacement [m], three values per node, and stiffness matrix times displacement [N]. It
+   * is empty without relaxation. */
+  struct DampingMemory
+  {
+    Unknowns              u_static, Ku_static; ///< static state, in which the body is relaxed
+    std::vector<Unknowns> d, Kd;               ///< of each mechanism: u - xi in Relaxation
+    Unknowns mean; ///< mean over the last step of what damping adds to u in the elastic forces [m]
+  };
+
+  /** Damping of the dam: Rayleigh damping C = mass M + stiffness K, and relaxation of the stiffness. The elastic force of
+   * a displacement u after the static state u_s is K w with
+   *
+   *     w = u_s + modulus (u - u_s + sum_l c_l d_l),    d d_l / dt = du / dt - d_l / tau_l.
+   *
+   * The memory variables d_l follow by the trapezoidal rule, so all works of a step are exact. K d_l follows from K u by
+   * the same recursion, without a product with K. Without mechanisms (#c is empty), w = u. */
+  struct Damping
+  {
+    double              mass = 0., stiffness = 0.; ///< [1/s], [s]
+    double              modulus = 1.;              ///< static modulus over the given one [-]
+    std::vector<double> c, tau;                    ///< of each mechanism: [-], [s]
+
+    Damping() = default;
+    Damping(double mass, double stiffness) : mass(mass), stiffness(stiffness) {}
+    explicit Damping(const Relaxation &law);
+
+    bool relaxes() const { return !c.empty(); }
+
+    /** Returns the factor of K in the operator of a step of length @p dt [s] by the trapezoidal rule, minus that of the
+     * elastic body, 1 [-]. */
+    double more_stiffness(double dt) const;
+
+    /** Returns the memory of the static state. */
+    DampingMemory memory_of(const Unknowns &u, const Unknowns &Ku) const;
+
+    /** Adds to the known forces @p rhs of a step of length @p dt what relaxation changes, except for the term of K u with
+     * more_stiffness(). @p Ku: at the start of the step [N]. */
+    void add_known_forces(double dt, const DampingMemory &memory, const Unknowns &Ku, Unknowns &rhs) const;
+
+    /** Advances the memory by a step of length @p dt [s] to @p u and @p Ku. @p u_old, @p Ku_old: at its start. Returns the
+     * energy that the mechanisms dissipate [J]. */
+    double advance(double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
+                   const Unknowns &Ku, DampingMemory &memory) const;
+
+    /** Returns the energy stored by the relaxing body minus u K u / 2 [J], zero in the static state. */
+    double more_energy(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku) const;
+
+    /** Returns component @p k of K (w - u) [N]. @p Ku: component of K u. */
+    double more_force(const DampingMemory &memory, double Ku, std::size_t k) const;
+
+    /** Returns the damping ratio of a mode of the circular frequency @p w [1/s] and the factor by which relaxation
+     * changes this frequency. */
+    std::pair<double, double> of_mode(double w) const;
+
+  private:
+    Relaxation law;
+  };
+} // namespace Voussoir
+
+#endif

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/entries.h>
+#include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
+#include <voussoir/dam/scene.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace Voussoir
+{
+  using dealii::Patterns::Double;
+
+  void DampingParameters::add_parameters(Entries &prm)
+  {
+    prm.enter_subsection("Damping");
+    prm.add_parameter(
+        "Model", model,
+        "Rayleigh: C = a M + b K, with the ratio at two frequencies. uniform: the ratio in a band of "
+        "frequencies, of the deformation of the concrete only: a free monolith moves without damping.",
+        dealii::Patterns::Selection("Rayleigh|uniform"));
+    prm.add_parameter("Ratio", ratio, "Damping ratio [-].", {.001, .2, true}, Double(0., 1.));
+    prm.add_parameter("Frequency 1", frequency_1, "Rayleigh: lower frequency with this damping ratio [Hz].",
+                      {0., 20.}, Double(1e-6));
+    prm.add_parameter("Frequency 2", frequency_2, "Rayleigh: upper frequency with this damping ratio [Hz].",
+                      {.5, 100.}, Double(1e-6));
+    prm.add_parameter("Mass coefficient", mass_coefficient,
+                      "Rayleigh: the factor a, in place of ratio and frequencies [1/s]. -1: from these.",
+                      {-1., 10.}, Double(-1.));
+    prm.add_parameter("Stiffness coefficient", stiffness_coefficient,
+                      "Rayleigh: the factor b, in place of ratio and frequencies [s]. -1: from these.",
+                      {-1., .1}, Double(-1.));
+    prm.add_parameter("Band begin", band_begin, "uniform: lowest frequency of the band [Hz].", {.05, 5.},
+                      Double(1e-3));
+    prm.add_parameter("Band end", band_end, "uniform: highest frequency of the band [Hz].", {5., 100.},
+                      Double(1e-3));
+    prm.add_parameter("Terms", terms, "uniform: number of Maxwell elements.",
+                      dealii::Patterns::Integer(1, 6));
+    prm.add_parameter(
+        "Reference frequency", reference_frequency,
+        "uniform: frequency at which Young's modulus is that of the input file [Hz]; it grows with the "
+        "frequency. -1: first natural frequency of the tied dam with its water.",
+        {-1., 20.}, Double(-1.));
+    prm.leave_subsection();
+  }
+
+  void DampingParameters::add_choices(ModelChoices &choices) const
+  {
+    for (const double other : {.03, .1})
+      if (ratio != other)
+        choices.add("material", "damping " + number_text(100. * other) + " %", "Damping/Ratio", other);
+  }
+
+  void DampingParameters::check() const
+  {
+    const auto order = [](const std::string &low, const double a, const std::string &high, const double b)
+    {
+      if (!(b > a))
+        throw InputError("Entry \"Damping/" + high + "\" (" + number_text(b) +
+                         " Hz) must be larger than \"Damping/" + low + "\" (" + number_text(a) +
+                         " Hz). Exchange or correct the frequencies.");
+    };
+    order("Frequency 1", frequency_1, "Frequency 2", frequency_2);
+    order("Band begin", band_begin, "Band end", band_end);
+    if ((mass_coefficient >= 0.) != (stiffness_coefficient >= 0.))
+      throw InputError(
+          "Entries \"Damping/Mass coefficient\" and \"Stiffness coefficient\" are given together. Set the "
+          "other one, too: 0 if there is none.");
+    if (is_uniform() && ratio > 0.)
+    {
+      if (ratio > largest_uniform)
+        throw InputError("Entry \"Damping/Ratio\" = " + number_text(ratio) + " is above " +
+                         number_text(largest_uniform) +
+                         ", the limit of \"Damping/Model\" = uniform. Reduce the ratio.");
+      if (!(reference_frequency > 0. || reference_frequency == -1.))
+        throw InputError(
+            "Entry \"Damping/Reference frequency\" = " + number_text(reference_frequency) +
+            " must be a frequency in Hz, or -1 for the first natural frequency of the tied dam.");
+      if (relaxation().weight.empty())
+        throw InputError(
+            "\"Damping/Terms\" = " + std::to_string(terms) + " cannot give a damping ratio between " +
+            number_text(band_begin) + " and " + number_text(band_end) +
+            " Hz. Change the number of terms, or widen the band from \"Band begin\" to \"Band end\".");
+    }
+  }
+
+  constexpr double two_pi = 6.28318530717958647693;
+
+  double DampingParameters::mass_factor() const
+  {
+    return mass_coefficient >= 0.
+               ? mass_coefficient
+               : 2. * ratio * two_pi * frequency_1 * frequency_2 / (frequency_1 + frequency_2);
+  }
+
+  double DampingParameters::stiffness_factor() const
+  {
+    return stiffness_coefficient >= 0. ? stiffness_coefficient
+                                       : 2. * ratio / (two_pi * (frequency_1 + frequency_2));
+  }
+
+  Relaxation DampingParameters::relaxation() const
+  {
+    return Relaxation::of_ratio(ratio, band_begin, band_end, terms);
+  }
+
+  Damping DampingParameters::law(const double first_frequency) const
+  {
+    if (!is_uniform())
+      return {mass_factor(), stiffness_factor()};
+    const double reference = reference_frequency > 0. ? reference_frequency : first_frequency;
+    if (!(ratio > 0.) || !(reference > 0.))
+      return Damping();
+    Relaxation result = relaxation();
+    result.unrelaxed = 1. / result.modulus(two_pi * reference).real();
+    return Damping(result);
+  }
+
+  std::string DampingParameters::in_words(const double first_frequency) const
+  {
+    char line[200];
+    if (!is_uniform())
+    {
+      std::snprintf(line, sizeof(line), "Rayleigh, C = a M + b K with a = %.4g 1/s, b = %.4g s",
+                    mass_factor(), stiffness_factor());
+      std::string text = line;
+      std::snprintf(line, sizeof(line), " (%.3g %% at %g and %g Hz)", 100. * ratio, frequency_1, frequency_2);
+      return mass_coefficient >= 0. ? text : text + line;
+    }
+    if (!(ratio > 0.))
+      return "none";
+    const auto [least, most] = relaxation().error_of(ratio, band_begin, band_end);
+    std::snprintf(line, sizeof(line),
+                  "uniform, %.3g %% (%+.1f to %+.1f %% of it) from %g to %g Hz; modulus of ", 100. * ratio,
+                  100. * least, 100. * most, band_begin, band_end);
+    return line + std::string("the input file at ") +
+           (reference_frequency > 0. ? number_text(reference_frequency) + " Hz"
+            : first_frequency > 0.
+                ? number_text(std::round(1e4 * first_frequency) / 1e4) + " Hz, the first frequency"
+                : std::string("the first frequency"));
+  }
+
+  std::string DampingParameters::warning() const
+  {
+    if (!is_uniform() || !(ratio > 0.))
+      return "";
+    const auto   error = relaxation().error_of(ratio, band_begin, band_end);
+    const double largest = std::max(-error.first, error.second);
+    return largest <= .05 ? ""
+                          : "the damping ratio differs from \"Damping/Ratio\" by up to " +
+                                number_text(std::round(1000. * largest) / 10.) +
+                                " % in its band. Increase \"Damping/Terms\", or narrow the band.";
+  }
+} // namespace Voussoir

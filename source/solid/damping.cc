@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/parallel.h>
+#include <voussoir/solid/damping.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double       two_pi = 6.283185307179586;
+    constexpr unsigned int n_points = 40; ///< frequencies of a fit
+
+    using Rows = std::vector<std::vector<double>>;
+
+    /** Returns the circular frequency at a @p share of the way from a to b on a logarithmic scale. @p a, @p b [Hz]. */
+    double between(const double a, const double b, const double share)
+    {
+      return two_pi * a * std::pow(b / a, share);
+    }
+
+    /** Solves normal equations, which are symmetric and positive definite. The last column is the right-hand
+     * side. */
+    std::vector<double> solved(Rows a)
+    {
+      const unsigned int n = a.size();
+      for (unsigned int k = 0; k < n; ++k)
+        for (unsigned int i = 0; i < n; ++i)
+          if (i != k)
+          {
+            const double factor = a[i][k] / a[k][k];
+            for (unsigned int j = k; j <= n; ++j)
+              a[i][j] -= factor * a[k][j];
+          }
+      std::vector<double> result(n);
+      for (unsigned int k = 0; k < n; ++k)
+        result[k] = a[k][n] / a[k][k];
+      return result;
+    }
+
+    double ratio_of(const std::complex<double> pole)
+    {
+      return -pole.real() / std::abs(pole);
+    }
+
+    /** Factors of a mechanism in a step: d_new = kept d + added (u_new - u). */
+    struct StepOfMechanism
+    {
+      double half, kept, added;
+      StepOfMechanism(const double dt, const double tau)
+          : half(.5 * dt / tau), kept((1. - half) / (1. + half)), added(1. / (1. + half))
+      {
+      }
+    };
+  } // namespace
+
+  Relaxation::Relaxation(const double quality, const double lowest, const double highest,
+                         const unsigned int n, const double beyond)
+      : frequency(n)
+  {
+    for (unsigned int l = 0; l < n; ++l)
+      frequency[l] = between(lowest / beyond, beyond * highest, n > 1 ? double(l) / (n - 1) : .5);
+    // Im(modulus) = Re(modulus)/quality is linear in the weights.
+    Rows normal(n, std::vector<double>(n + 1, 0.));
+    for (unsigned int k = 0; k < n_points; ++k)
+    {
+      const double        w = between(lowest, highest, double(k) / (n_points - 1));
+      std::vector<double> row(n + 1, 1.);
+      for (unsigned int l = 0; l < n; ++l)
+        row[l] = frequency[l] * (quality * w + frequency[l]) / (frequency[l] * frequency[l] + w * w);
+      for (unsigned int i = 0; i < n; ++i)
+        for (unsigned int j = 0; j <= n; ++j)
+          normal[i][j] += row[i] * row[j];
+    }
+    weight = solved(normal);
+  }
+
+  Relaxation Relaxation::of_ratio(const double ratio, const double lowest, const double highest,
+                                  const unsigned int n)
+  {
+    constexpr unsigned int n_trials = 40;
+    Relaxation             best;
+    double                 least = 1e300;
+    for (unsigned int trial = 0; trial < n_trials; ++trial)
+    {
+      const double beyond = between(.5, 4., double(trial) / (n_trials - 1)) / two_pi;
+      double       wanted = ratio; // of forced oscillations: free ones are damped a little more
+      for (unsigned int pass = 0; pass < 4; ++pass)
+      {
+        const Relaxation law(.5 / wanted, lowest, highest, n, beyond);
+        if (*std::min_element(law.weight.begin(), law.weight.end()) <= 0.)
+          break;
+        const auto   error = law.error_of(ratio, lowest, highest);
+        const double largest = std::max(-error.first, error.second);
+        if (largest < least)
+        {
+          least = largest;
+          best = law;
+        }
+        wanted /= 1. + .5 * (error.first + error.second);
+      }
+    }
+    return best;
+  }
+
+  std::complex<double> Relaxation::modulus(const std::complex<double> w) const
+  {
+    std::complex<double> result = 1.;
+    for (std::size_t l = 0; l < weight.size(); ++l)
+      result -= weight[l] * frequency[l] / (frequency[l] + std::complex<double>(0., 1.) * w);
+    return unrelaxed * result;
+  }
+
+  std::complex<double> Relaxation::pole(const double w) const
+  {
+    const std::complex<double> i(0., 1.);
+    std::complex<double>       lambda = i * w;
+    for (unsigned int k = 0; k < 60; ++k)
+      lambda = i * w * std::sqrt(modulus(-i * lambda));
+    return lambda;
+  }
+
+  std::pair<double, double> Relaxation::error_of(const double ratio, const double lowest,
+                                                 const double highest) const
+  {
+    std::pair<double, double> result(1e300, -1e300);
+    for (unsigned int k = 0; k < 2 * n_points; ++k)
+    {
+      const double error = ratio_of(pole(between(lowest, highest, k / (2. * n_points - 1.)))) / ratio - 1.;
+      result = {std::min(result.first, error), std::max(result.second, error)};
+    }
+    return result;
+  }
+
+  Damping::Damping(const Relaxation &law) : law(law)
+  {
+    modulus = law.unrelaxed;
+    for (const double y : law.weight)
+      modulus -= law.unrelaxed * y;
+    for (std::size_t l = 0; l < law.weight.size(); ++l)
+    {
+      c.push_back(law.unrelaxed * law.weight[l] / modulus);
+      tau.push_back(1. / law.frequency[l]);
+    }
+  }
+
+  double Damping::more_stiffness(const double dt) const
+  {
+    double factor = modulus;
+    for (std::size_t l = 0; l < c.size(); ++l)
+      factor += modulus * c[l] * StepOfMechanism(dt, tau[l]).added;
+    return 2. / dt * stiffness + (factor - 1.);
+  }
+
+  DampingMemory Damping::memory_of(const Unknowns &u, const Unknowns &Ku) const
+  {
+    const Unknowns zero(u.size(), 0.);
+    return relaxes() ? DampingMemory{u, Ku, std::vector<Unknowns>(c.size(), zero),
+                                     std::vector<Unknowns>(c.size(), zero), zero}
+                     : DampingMemory();
+  }
+
+  void Damping::add_known_forces(const double dt, const DampingMemory &memory, const Unknowns &Ku,
+                                 Unknowns &rhs) const
+  {
+    const int n = relaxes() ? rhs.size() : 0;
+#pragma omp parallel for schedule(static)
+    for (int k = 0; k < n; ++k)
+      rhs[k] += 2. * (1. - modulus) * (Ku[k] - memory.Ku_static[k]);
+    for (std::size_t l = 0; l < c.size(); ++l)
+    {
+      const double factor = modulus * c[l] * (1. + StepOfMechanism(dt, tau[l]).kept);
+#pragma omp parallel for schedule(static)
+      for (int k = 0; k < n; ++k)
+        rhs[k] -= factor * memory.Kd[l][k];
+    }
+  }
+
+  double Damping::advance(const double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
+                          const Unknowns &Ku, DampingMemory &memory) const
+  {
+    if (!relaxes())
+      return 0.;
+    const auto advance_values = [&](const std::size_t begin, const std::size_t end)
+    {
+      double dissipated = 0.;
+      for (std::size_t k = begin; k < end; ++k)
+        memory.mean[k] = (modulus - 1.) * (.5 * (u_old[k] + u[k]) - memory.u_static[k]);
+      for (std::size_t l = 0; l < c.size(); ++l)
+      {
+        const StepOfMechanism s(dt, tau[l]);
+        const double          share = modulus * c[l];
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          const double d = s.kept * memory.d[l][k] + s.added * (u[k] - u_old[k]),
+                       Kd = s.kept * memory.Kd[l][k] + s.added * (Ku[k] - Ku_old[k]);
+          const double mean = .5 * (memory.d[l][k] + d);
+          dissipated += share * s.half * mean * (memory.Kd[l][k] + Kd);
+          memory.mean[k] += share * mean;
+          memory.d[l][k] = d;
+          memory.Kd[l][k] = Kd;
+        }
+      }
+      return std::array<double, 1>{{dissipated}};
+    };
+    return sum_of_ranges<std::array<double, 1>>(u.size(), advance_values)[0];
+  }
+
+  double Damping::more_energy(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku) const
+  {
+    if (!relaxes())
+      return 0.;
+    const auto energy = [&](const std::size_t begin, const std::size_t end)
+    {
+      double sum = 0.;
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        sum -= .5 * (1. - modulus) * (u[k] - memory.u_static[k]) * (Ku[k] - memory.Ku_static[k]);
+        for (std::size_t l = 0; l < c.size(); ++l)
+          sum += .5 * modulus * c[l] * memory.d[l][k] * memory.Kd[l][k];
+      }
+      return std::array<double, 1>{{sum}};
+    };
+    return sum_of_ranges<std::array<double, 1>>(u.size(), energy)[0];
+  }
+
+  double Damping::more_force(const DampingMemory &memory, const double Ku, const std::size_t k) const
+  {
+    if (!relaxes())
+      return 0.;
+    double force = (modulus - 1.) * (Ku - memory.Ku_static[k]);
+    for (std::size_t l = 0; l < c.size(); ++l)
+      force += modulus * c[l] * memory.Kd[l][k];
+    return force;
+  }
+
+  std::pair<double, double> Damping::of_mode(const double w) const
+  {
+    if (!relaxes())
+      return {.5 * (mass / w + stiffness * w), 1.};
+    const std::complex<double> pole = law.pole(w);
+    return {ratio_of(pole), std::abs(pole) / w};
+  }
+} // namespace Voussoir
