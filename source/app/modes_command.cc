@@ -135,9 +135,83 @@ namespace Voussoir
       std::fflush(stdout);
     }
 
+    /** Highest monolith between open joints, on a rigid base and with added mass by Westergaard in place of meshed water. */
+    struct FreeMonolith
+    {
+      std::string         name;
+      std::vector<double> frequency, ratio; ///< of its first modes [Hz], [-]
+    };
+
+    /** Returns the free-standing monolith, without modes if the dam has no contraction joints, or lift joints that divide
+     * its monoliths. */
+    FreeMonolith free_monolith(Scene scene, const std::vector<Joint> &joints, const Damping &damping)
+    {
+      FreeMonolith result;
+      const auto   has = [&](const std::string &kind)
+      {
+        return std::any_of(joints.begin(), joints.end(),
+                           [&](const Joint &joint) { return joint.kind() == kind; });
+      };
+      if (!has("contraction") || has("lift") || scene.joints.model == "tied" ||
+          (scene.mesh.source == "file" && scene.foundation.model != "rigid"))
+        return result;
+      scene.foundation.model = "rigid";
+      scene.joints.overrides.clear();
+      if (has("base"))
+        scene.joints.overrides["base"] = "tied";
+      scene.joints.gaps.clear();
+      scene.statics.stages.clear();
+      scene.statics.self_weight = "none";
+      if (scene.reservoir.is_meshed())
+        scene.reservoir.model = "Westergaard";
+      const Dam                              dam(scene);
+      const Structure                       &all = dam.structure;
+      std::vector<std::pair<double, double>> range(all.bodies.size(), {1e300, -1e300});
+      for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
+        if (const unsigned int node = dam.model->equation[i]; node != rigid_ground)
+        {
+          auto &[low, high] = range[all.body_of(node)];
+          low = std::min(low, dam.model->points[i][2]);
+          high = std::max(high, dam.model->points[i][2]);
+        }
+      const auto higher = [](const auto &a, const auto &b)
+      { return a.second - a.first < b.second - b.first; };
+      Structure one;
+      one.bodies = {all.bodies[std::max_element(range.begin(), range.end(), higher) - range.begin()]};
+      Body &body = one.bodies[0];
+      one.mass.assign(all.mass.begin() + body.first_node,
+                      all.mass.begin() + body.first_node + body.n_nodes());
+      body.first_node = 0;
+      one.plane_strain = all.plane_strain;
+      one.collect_interfaces();
+      result.name = body.name();
+      for (const NaturalMode &mode : natural_modes(one, 3))
+      {
+        result.frequency.push_back(mode.frequency);
+        result.ratio.push_back(damping.of_mode(2. * M_PI * mode.frequency).first);
+      }
+      return result;
+    }
+
+    /** Returns a warning if the first mode of the free-standing monolith has more than twice or less than half of the
+     * ratio, or an empty string. */
+    std::string warning_of(const FreeMonolith &monolith, const double ratio)
+    {
+      if (monolith.ratio.empty() || (monolith.ratio[0] <= 2. * ratio && monolith.ratio[0] >= .5 * ratio))
+        return "";
+      std::ostringstream text;
+      text.precision(3);
+      text
+          << monolith.name << " between open joints has a damping ratio of " << 100. * monolith.ratio[0]
+          << " % in its first mode (" << monolith.frequency[0] << " Hz), \"Damping/Ratio\" is "
+          << 100. * ratio
+          << " %. Openings depend on it: change \"Damping/Frequency 1\", or set \"Damping/Model\" to uniform.";
+      return text.str();
+    }
+
     /** Returns the rows of the table as objects, with the names of the columns as keys, and the damping ratios. */
     Json json_of(const Dam &dam, const Table &table, const ModesDamping &damping,
-                 const std::vector<double> &radiation)
+                 const std::vector<double> &radiation, const FreeMonolith &monolith)
     {
       std::vector<Json> modes(table.rows.size());
       for (std::size_t k = 0; k < modes.size(); ++k)
@@ -150,13 +224,19 @@ namespace Voussoir
       for (const std::string &warning : dam.facts.warnings)
         warnings.push_back({Warning::Kind::physics, warning, ""});
       warnings.insert(warnings.end(), dam.scene.warnings.begin(), dam.scene.warnings.end());
-      if (const std::string warning = damping.warning(); !warning.empty())
-        warnings.push_back({Warning::Kind::physics, warning, ""});
+      for (const std::string &warning : {damping.warning(), warning_of(monolith, dam.scene.damping.ratio)})
+        if (!warning.empty())
+          warnings.push_back({Warning::Kind::physics, warning, ""});
       Json json;
       json.add("scene", dam.scene.name)
           .add_list("free_mass", free_mass(dam.structure))
           .add("modes", modes)
           .add("warnings", warnings);
+      if (!monolith.frequency.empty())
+        json.add("free_monolith", Json()
+                                      .add("name", monolith.name)
+                                      .add_list("frequencies", monolith.frequency)
+                                      .add_list("damping", monolith.ratio));
       return json;
     }
   } // namespace
@@ -164,7 +244,7 @@ namespace Voussoir
   std::vector<double> first_frequencies(Scene scene)
   {
     if (scene.foundation.model == "rock")
-      scene.foundation.model = "rigid";
+      scene.foundation.model = scene.mesh.source == "file" ? "massless" : "rigid";
     if (scene.reservoir.is_meshed())
       scene.reservoir.model = "incompressible";
     scene.is_for_modes = true;
@@ -203,8 +283,10 @@ namespace Voussoir
     const std::vector<NaturalMode> modes = modes_of(dam, count, radiation);
     const Table                    table = table_of(modes, radiation, dam.structure);
     const ModesDamping             damping(scene.damping, modes, dam.structure);
+    const FreeMonolith             monolith =
+        free_monolith(scene, dam.layout.joints, scene.damping.law(modes[0].frequency));
     if (json)
-      std::printf("%s\n", json_of(dam, table, damping, radiation).text().c_str());
+      std::printf("%s\n", json_of(dam, table, damping, radiation, monolith).text().c_str());
     else
     {
       std::printf("mode  frequency [Hz]  damping [%%]%s\n",
@@ -220,12 +302,18 @@ namespace Voussoir
         std::printf("\n");
       }
       std::printf("Damping   %s\n", damping.in_words().c_str());
+      for (std::size_t i = 0; i < monolith.frequency.size(); ++i)
+        std::printf("%s%.4g Hz (%.2f %%)%s",
+                    i == 0 ? ("Free      " + monolith.name + " between open joints: ").c_str() : ", ",
+                    monolith.frequency[i], 100. * monolith.ratio[i],
+                    i + 1 == monolith.frequency.size() ? "\n" : "");
       if (!directory.empty())
         print_masses(table);
     }
     std::fflush(stdout);
-    if (const std::string warning = damping.warning(); !warning.empty())
-      std::cerr << "voussoir: warning: " << warning << "\n";
+    for (const std::string &warning : {damping.warning(), warning_of(monolith, scene.damping.ratio)})
+      if (!warning.empty())
+        std::cerr << "voussoir: warning: " << warning << "\n";
     if (spectrum)
       print_spectrum_analysis(dam, modes, *spectrum, directory);
     if (!directory.empty())
