@@ -238,7 +238,7 @@ namespace
         a[i] = (after.v[i] - before.v[i]) / dt + ground[i % 3];
       for (double &x : f)
         x /= dt;
-      const StepOfDam step{before.u, after.u, a, f, ground, velocity, dt};
+      const StepOfDam step{before.u, after.u, a, f, ground, velocity, dt, {}, after.relaxation.mean};
       const auto      ours = forces.of(step);
       const auto      theirs = whole.balance(dam, step, staged);
       Wrench          our_sum{}, their_sum{};
@@ -332,6 +332,9 @@ namespace
     scene.loads.silt.level = 90.;
     scene.loads.tail_water.level = 40.;
     below("temperature, silt and tail water", momentum(scene, true), 1e-11);
+    scene.damping.model = "uniform";
+    scene.damping.reference_frequency = 2.;
+    below("uniform damping", momentum(scene, true), 1e-11);
     scene.reservoir.density = 0.;
     scene.damping.ratio = 0.;
     below("no water, no damping", momentum(scene, true), 1e-11);

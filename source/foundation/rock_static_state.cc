@@ -206,7 +206,7 @@ namespace Voussoir
       sum += std::abs(load[k]);
       stiffest = std::max(stiffest, springs[k]);
     }
-    for (; round < 60 && error > enough; ++round)
+    for (; round < 200 && error > enough; ++round)
     {
       const ContactResult contact = solve_dam(with_springs(load, springs, base, r));
       total += contact;
