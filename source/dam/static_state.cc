@@ -481,12 +481,12 @@ namespace Voussoir
                 << result.residual_over_load << " of the load (limit " << parameters.tolerance
                 << ", from \"Contact/Tolerance\"), after " << result.iterations << " Newton steps. ";
         const double share = result.residual / parameters.tolerance;
-        if (parameters.method == "sweeps")
+        if (parameters.method != "newton")
           message << "Set \"Contact/Method\" to newton.";
         else if (result.iterations == 0 || share < 1e3) // near the round-off, or no step is possible
           message << "More increments or iterations will not help. Set \"Contact/Tolerance\" to "
                   << dam.scene.contact.tolerance * std::pow(10., std::ceil(std::log10(share)))
-                  << (parameters.method == "newton" ? ", or \"Contact/Method\" to proximal." : ".");
+                  << ", or \"Contact/Method\" to proximal.";
         else if (path.depends_on_increments())
           message
               << "The increments were halved already. Increase \"Contact/Maximum iterations\", or divide the stage.";
@@ -497,7 +497,7 @@ namespace Voussoir
 
       [[noreturn]] void throw_failure() const
       {
-        if (path.is_weight_alone(stage))
+        if (path.is_weight_alone(stage) && failure.rfind("The static state did not converge", 0) != 0)
           throw InputError(failure);
         throw ComputationError(failure);
       }
