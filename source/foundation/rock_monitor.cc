@@ -16,8 +16,8 @@ namespace Voussoir
     constexpr double energy_factor = 3.; ///< margin of the energy bound [-]
 
     /** Returns the energy of the incident wave at the bottom of the rock [J]. Its velocity is half of that at
-     * the outcrop. */
-    double incident_energy(const RockModel &rock, const GroundMotion &motion)
+     * the outcrop. Oblique waves also enter through the sides, and as P waves in each direction: an upper bound. */
+    double incident_energy(const RockModel &rock, const GroundMotion &motion, const bool is_vertical)
     {
       double                energy = 0.;
       const MotionIntegrals integrals = motion.integrated();
@@ -27,9 +27,10 @@ namespace Voussoir
           const double v = integrals.velocity[k][c];
           double       impedance = 0.; // integral over the bottom [N s/m]
           for (const BoundaryFace &face : rock.faces)
-            if (face.normal[2] < -.5)
-              impedance += face.material.density * face.area *
-                           (c == 2 ? p_wave_speed(face.material) : s_wave_speed(face.material));
+            if (face.normal[2] < -.5 || !is_vertical)
+              impedance +=
+                  face.material.density * face.area *
+                  (c == 2 || !is_vertical ? p_wave_speed(face.material) : s_wave_speed(face.material));
           energy += impedance * .25 * v * v * motion.dt;
         }
       return energy;
@@ -45,7 +46,9 @@ namespace Voussoir
   void RockMonitor::set_bounds(const GroundMotion &motion, const NeighbourBounds &limits)
   {
     bounds = limits;
-    energy_bound = energy_factor * (incident_energy(model, motion) + std::max(0., limits.strain));
+    energy_bound =
+        energy_factor * (incident_energy(model, motion, read_incidence(parameters.incidence).empty()) +
+                         std::max(0., limits.strain));
   }
 
   void RockMonitor::gather_motion(const unsigned int step, const unsigned int n_steps)

@@ -121,7 +121,7 @@ def main():
             case = Case(net, number, scene)
             rows.append(checked(case, first))
             if case.first:
-                relations = (*ALWAYS, *chosen(number, scene, idle, met, 4 if options.tenth else 6))
+                relations = (*ALWAYS, *chosen(number, scene, idle, met, 4 if options.tenth else 3))
                 checks.append(pool.submit(all_checked, case, relations))
             elif rows[-1][2] != "failed":
                 net.scenes.pop()  # its pairs remain open
