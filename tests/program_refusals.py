@@ -105,6 +105,23 @@ def choices():
         ("Joints/Equations=fischer-burmeister", ("Joints/Equations", "fischer-burmeister", "alart-curnier"))))
 
 
+def intervals():
+    """Intervals of outputs: samples of the motion (10 ms), or times with a unit that are multiples of them."""
+    write_scene()
+    for entry in ("Envelope", "Solution", "Checkpoint", "Progress"):
+        refuse(["scene.prm", "--validate"], [(f"Output/{entry} interval={value}", (f"Output/{entry} interval", *parts)) for value, *parts in (
+            ("15 ms", "1.5 samples", "Motion/Time step, 0.01 s"), ("1e-9 s", "samples"), ("3 m", "from"), ("1.5", "from"), ("-1", "from"),
+            ("often", "from"))])
+    refuse(["scene.prm", "--validate"], [("Output/Progress interval=0", ("from 1",))])
+    for name, value in (("samples", "10"), ("time", "0.1 s"), ("milliseconds", "100 ms")):
+        runs("scene.prm", "--output", name, *settings(f"Output/Solution interval={value}", f"Output/Envelope interval={value}"))
+    for path in Path("samples").iterdir():
+        if path.suffix in (".csv", ".vtu", ".pvd"):
+            for other in ("time", "milliseconds"):
+                expect(path.read_bytes() == Path(other, path.name).read_bytes(), f"{path.name} of {other}")
+    expect(len(list(Path("time").glob("solution-*.vtu"))) == 6, "six solutions in 0.5 s")
+
+
 def own_steps():
     """What does not fit subcycled rock is refused before the run; --validate names the coupling."""
     write_scene()
@@ -181,4 +198,4 @@ def spectrum():
 
 
 if __name__ == "__main__":
-    run_cases(base, lift, gaps, cohesive, choices, own_steps, zones, plane_strain, spectrum)
+    run_cases(base, lift, gaps, cohesive, choices, intervals, own_steps, zones, plane_strain, spectrum)
