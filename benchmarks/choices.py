@@ -4,10 +4,9 @@
 
     benchmarks/choices.py [GROUP...] [--seconds 3] [--seed N] [--set ENTRY=VALUE] [--voussoir PROGRAM]
 
-Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), steps28 (28 joints), elements, solvers,
-boundary, free_field, box (its sizes), box_tied (without joints), box_static, box28 (28 joints),
-rock_cells, rock28_cells, rock_layers, rock_steps. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from
-the bottom is all at the dam before the end, whatever the depth.
+Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), elements, box (its sizes), box_static,
+rock28_cells, rock_layers. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from the bottom is all at the
+dam before the end, whatever the depth.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
 tension envelope over nine zones of each face; over the strongest seconds of the scene's motion. Each group has a
 reference: the finest step, mesh or box. Prints Markdown tables, and draws doc/figures/choices_GROUP.png of quickstart, steps
@@ -57,7 +56,6 @@ def steps_of(rules, counts):
 
 def groups():
     """Name -> scene, settings of all, rows (curve, label, settings), settings of the reference, what it is."""
-    many = mesh(58, 21, 2)
     linear, quadratic = [(30, 8, 1), (60, 16, 2), (90, 24, 3)], [(18, 6, 1), (30, 8, 1), (48, 12, 1)]
     modes, degree = "Elements/Incompatible modes", "Elements/Degree"
     rock = {**mesh(30, 10, 1), STEPS: 6, "Mesh/Arch210/Rock/Boundary layers": 9}
@@ -70,8 +68,7 @@ def groups():
              (("210 m", {}), ("depth 315 m", box(315, ("Depth",))), ("depth 420 m", box(420, ("Depth",))),
               ("sides 420 m", box(420, ("Sides",))), ("upstream, downstream 420 m", box(420, ("Upstream", "Downstream"))),
               ("all 315 m", box(315)), ("all 420 m", box(420)))]
-    deep = {**box(630), "Foundation/Boundary": "mtf4"}
-    far, nested_far = "mtf4 in a box of 630 m", "a box of 630 m, the same elements at the dam"
+    nested_far = "a box of 630 m, the same elements at the dam"
     whole = [(f"{name(m)}, {10 / n:g} ms", {**mesh(*m), STEPS: n}) for m, n in
              (((60, 16, 2), 1), ((60, 16, 2), 2), ((60, 20, 3), 2), ((72, 24, 3), 2), ((60, 24, 4), 2))]
     whole28 = [(f"{name(m)}, {10 / n:.3g} ms", {**mesh(*m), STEPS: n}) for m, n in
@@ -83,38 +80,19 @@ def groups():
                        "120 x 32 x 6 elements at 2.5 ms"),
         "joints28": (MANY, {}, [("28 joints", label, settings) for label, settings in whole28], {**mesh(232, 21, 6), STEPS: 4},
                      "232 x 21 x 6 elements at 2.5 ms"),
-        "steps": (RIGID, {}, steps_of(("mean-force", "impulse-consistent", "paper", "none"), (1, 2, 4)), {STEPS: 8},
+        "steps": (RIGID, {}, steps_of(("mean-force", "paper", "none"), (1, 2, 4)), {STEPS: 8},
                   "mean-force at 1.25 ms, on the same mesh"),
-        "steps28": (MANY, many, steps_of(("mean-force",), (1, 2, 4)), {STEPS: 8}, "1.25 ms, on the same mesh (58 x 21 x 2)"),
         "elements": (RIGID, {STEPS: 2},
                      [("degree 1, modes", name(m), mesh(*m)) for m in linear]
                      + [("degree 1, plain", name(m), {**mesh(*m), modes: "false"}) for m in linear]
                      + [("degree 2", name(m), {**mesh(*m), degree: 2}) for m in quadratic],
                      mesh(120, 32, 4), "degree 1 with modes, 120 x 32 x 4"),
-        "solvers": (RIGID, {},
-                    [("method", name, {"Contact/Method": name}) for name in ("newton", "proximal", "sweeps")]
-                    + [("equations", name, {"Joints/Equations": name}) for name in ("alart-curnier", "paper")]
-                    + [("tolerance", x, {"Contact/Tolerance": x}) for x in ("1e-4", "1e-6", "1e-8")],
-                    {"Contact/Tolerance": "1e-12"}, "the tolerance 1e-12"),
-        "boundary": (ROCK, rock, [("boundary", b, {"Foundation/Boundary": b}) for b in
-                                  ("fixed", "viscous-spring", "mtf1", "mtf2", "mtf3", "mtf4")],
-                     deep, far),
-        "free_field": (ROCK, rock, [("free field", f, {"Foundation/Free field": f}) for f in ("sections", "columns")],
-                       deep, far + ", sections"),
         "box": (ROCK, nested, boxes, box(630), nested_far),
-        "box_tied": (ROCK, {**nested, "Joints/Model": "tied"}, boxes, box(630), nested_far),
         "box_static": (ROCK, {**nested, "Motion/Source": "none"}, boxes, box(630), nested_far + ", the static state alone"),
-        "box28": (ROCK_MANY, {}, [("mtf3", "210 m", {}), ("mtf3", "depth 315 m", box(315, ("Depth",))), ("mtf3", "all sides 315 m", box(315))],
-                  box(420), "a box of 420 m, the same elements at the dam"),
-        "rock_cells": (ROCK, {**rock, STEPS: 8}, [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (30, 22)],
-                       {"Mesh/Arch210/Rock/Element size": 15}, "cells of 15 m"),
         "rock28_cells": (ROCK_MANY, {"Foundation/Substeps": 0},
                          [("cells", f"{size} m", {"Mesh/Arch210/Rock/Element size": size}) for size in (12, 14, 16, 22, 26)],
                          {"Mesh/Arch210/Rock/Element size": 9}, "cells of 9 m"),
         "rock_layers": (ROCK, {**rock, STEPS: 8}, at_dam, {**mesh(90, 30, 3), layers: 4}, "90 x 30 x 3 elements, 4 layers"),
-        "rock_steps": (ROCK, rock, [("dam at its own step", f"{10 / n:g} ms, {6 // n} of the rock",
-                                     {STEPS: n, "Foundation/Substeps": 6 // n}) for n in (1, 2)]
-                       + [("one step", "1.67 ms", {})], {STEPS: 20}, "one step for dam and rock, 0.5 ms"),
     }
 
 

@@ -1,18 +1,9 @@
-#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Figures laid out as the paper's, for benchmarks/paper.py; and several single runs in one figure, for doc/verification.md:
-
-    benchmarks/paper_figures.py rock 'rigid base=DIR' FJA=DIR FJB=DIR [--output output/figures]
-
-DIR are the output directories; the first word begins the names of the figures.
-"""
-
-import argparse
-from pathlib import Path
+"""Figures laid out as the paper's, for benchmarks/paper.py."""
 
 import numpy as np
 
-from paper_run import FACES, LIMIT, Run, upper_part
+from paper_run import FACES, LIMIT, upper_part
 from voussoir.drawing import LineCollection, edges, plt, triangles
 from voussoir.tables import read_table
 
@@ -210,26 +201,3 @@ def draw(runs, output, directory):
                  directory / name)
         profiles({law: output / f"3.2_{law.lower()}" / "seed_1" for law in rigid},
                  "Section 3.2: opening over height, motion 1", directory / "paper_profile_3_2.png")
-
-
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("name")
-    parser.add_argument("runs", nargs="+", metavar="LABEL=DIR")
-    parser.add_argument("--output", type=Path, default=Path("output/figures"), help="directory of the figures")
-    options = parser.parse_args()
-    if any("=" not in run for run in options.runs):
-        parser.error("give runs as LABEL=DIR")
-    runs = {label: {1: Run(Path(directory))} for label, directory in (run.split("=", 1) for run in options.runs)}
-    options.output.mkdir(parents=True, exist_ok=True)
-    for face in FACES:
-        envelopes({label: mean_envelopes(by_seed, [face]) for label, by_seed in runs.items()}, "",
-                  options.output / f"{options.name}_stress_{face}.png")
-    for what in ("openings", "slips"):
-        values = {label: crest(by_seed, what) for label, by_seed in runs.items()}
-        names = [str(j + 1) for j in range(next(iter(values.values())).shape[1])]
-        bars(values, names, f"largest {what[:-1]} [mm]", options.output / f"{options.name}_{what}.png")
-
-
-if __name__ == "__main__":
-    main()

@@ -5,11 +5,17 @@ relevant tests against each mutant until one fails. The mutant is killed if that
 (scripts/mutants_python.txt) require no build: each is applied to a copy of scripts, package and tests, which runs with the program
 of build/.
 
-    scripts/mutants.py [--scratch build-mutants] [--only REGEX] [--python] [--random N --seed TEXT] [--all] [--table FILE]
+    scripts/mutants.py [--scratch build-mutants] [--only REGEX] [--python] [--random N | --invent N] [--seed TEXT] [--all] [--table FILE]
                        [--check] [--no-build] [--build build] [--timeout 300]
 
 --check only checks that all mutants fit the sources. --all also runs the other tests against survivors. --random selects N mutants
 by the seed, except those of headers, and builds only their targets: the rest comes from ccache after scripts/build.sh.
+
+--invent makes N new mutants by the seed: each changes a random line of source/ by one of OPERATORS (another arithmetic operator or comparison,
+&& and ||, == and !=, another number, or one statement less). One that does not compile without a warning is replaced by the next. Each is built by itself, and
+meets the tests that the lists name for its source or, without one, for its directory. Survivors need a reader: a change of speed, of a
+message or of a value that is never used is no error of the tests.
+
 Prints a table in Markdown and the survivors. Exit status: 0 none survives, 1 some do, 2 a mutant does not fit the sources.
 """
 
@@ -48,6 +54,15 @@ inline const int voussoir_mutant = voussoir_mutant_number(voussoir_mutant_names)
 #endif
 """
 
+
+# Random mutants: a pattern outside of texts and comments, and what its occurrence becomes.
+OPERATORS = [*((f"(?<= ){re.escape(old)}(?= )", new) for old, new in (
+    ("+", "-"), ("-", "+"), ("*", "/"), ("/", "*"), ("<", "<="), ("<=", "<"), (">", ">="), (">=", ">"), ("&&", "||"), ("||", "&&"),
+    ("==", "!="), ("!=", "=="))),
+    (r"(?<![\w.])\d+(\.\d*)?(e[-+]?\d+)?(?![\w.])", lambda number: another_number(number)),
+    (r"^ *(?!return\b)[\w.:>\[\]-]+(\(.*\)|\[.*\]| [-+*/]?= .*);$", ";")]
+NEEDED = ("CMakeLists.txt", "CITATION.cff", "LICENSE", "README.md", "benchmarks", "cmake", "doc/Doxyfile.in", "include", "meshes", "prm", "python",
+          "scripts", "source", "tests")
 
 SKIPPED = "not tested: its tests are skipped here"
 
@@ -197,9 +212,7 @@ def mutate(text, mutant, number):
 
 def make_tree(mutants, tree):
     """Copies what git has, and puts the mutants in. Files that do not change keep their time."""
-    needed = ["CMakeLists.txt", "CITATION.cff", "LICENSE", "README.md", "benchmarks", "cmake", "doc/Doxyfile.in", "include",
-              "meshes", "prm", "python", "scripts", "source", "tests"]
-    texts = sources(*needed)
+    texts = sources(*NEEDED)
     names = ", ".join(f'"{m["name"]}"' for m in mutants)
     texts["include/voussoir/mutant.h"] = (HEADER % names).encode()
     errors = []
@@ -244,8 +257,47 @@ def write_tree(texts, tree):
             path.chmod((ROOT / file).stat().st_mode if (ROOT / file).exists() else 0o644)
 
 
+def another_number(text):
+    """A whole number plus one, another one doubled."""
+    if text.isdigit():
+        return str(int(text) + 1)
+    number = f"{2 * float(text) or 1:.12g}"
+    return number if re.search(r"[.e]", number) else number + "."
+
+
+def without_texts(source):
+    """A source with blanks instead of its texts and comments."""
+    return re.sub(r"//[^\n]*|/\*.*?\*/|\"(\\.|[^\"\\\n])*\"|'(\\.|[^'\\])'|^#[^\n]*", lambda m: re.sub(r"[^\n]", " ", m[0]), source, flags=re.S | re.M)
+
+
+def changes_of(line, code):
+    """All lines that OPERATORS make of this one. @p code: the line without texts."""
+    found = [(match, new) for pattern, new in OPERATORS for match in re.finditer(pattern, code) if match[0].count("(") == match[0].count(")")]
+    return [line[:m.start()] + (new if isinstance(new, str) else new(m[0])) + line[m.end():] for m, new in found]
+
+
+def invent(seed):
+    """Random mutants of the sources, without end: as those of read_list(), with "text", the whole mutated source, instead of edits."""
+    listed = read_list(LISTS[0])
+    lines = {}  # (file, index) -> the lines that this one may become
+    texts = {file: text.decode() for file, text in sorted(sources("source").items()) if file.endswith(".cc")}
+    for file, text in texts.items():
+        for i, (line, code) in enumerate(zip(text.split("\n"), without_texts(text).split("\n"))):
+            if changes := changes_of(line, code):
+                lines[file, i] = changes
+    chance = random.Random(seed)
+    while True:
+        file, i = chance.choice(list(lines))
+        whole, new = texts[file].split("\n"), chance.choice(lines[file, i])
+        near = [m for m in listed if m["file"] == file] or [m for m in listed if Path(m["file"]).parent == Path(file).parent]
+        tests = "|".join(dict.fromkeys(test for m in near for test in m["tests"]))
+        yield {"name": f"{file}:{i + 1}", "room": Path(file).parent.name, "file": file, "tests": [tests or "."], "edits": [],
+               "meaning": f"`{whole[i].strip()}` is `{new.strip()}`".replace("|", "\\|"), "text": "\n".join([*whole[:i], new, *whole[i + 1:]])}
+
+
 def build(tree, directory, patterns=None):
-    """The program, and all tests or those of these patterns, with the flags of scripts/build.sh and at the same place in the tree."""
+    """Builds the program, and all tests or those of these patterns, with the flags of scripts/build.sh and at the same place in the tree.
+    Whether it compiles."""
     launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
     samples = ROOT.parent / "shared/reference/data/peers"
     log_name = tree.parent / "build.log"
@@ -258,7 +310,8 @@ def build(tree, directory, patterns=None):
         with open(log_name, "a") as log:
             environment = {**os.environ, "CCACHE_BASEDIR": str(tree), "CCACHE_NOHASHDIR": "1"}
             if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env=environment).returncode != 0:
-                sys.exit(f"mutants: the build failed; see {log.name}")
+                return False
+    return True
 
 
 def targets_of(directory, patterns):
@@ -284,14 +337,14 @@ def make_overlay(overlay, program, seconds):
 
 
 @contextmanager
-def put_into(overlay, mutant):
-    """The overlay with this mutant, if it is one of Python."""
-    path = overlay / mutant["file"]
-    sound = path.read_text(encoding="utf-8") if is_script(mutant) else None
+def put_into(overlay, mutant, directory):
+    """The overlay with this mutant if it is one of Python, the tree with it and its build if it is a random one; whether it can be run."""
+    path = (directory.parent if "text" in mutant else overlay) / mutant["file"]
+    sound = path.read_text(encoding="utf-8") if is_script(mutant) or "text" in mutant else None
     if sound is not None:
-        path.write_text(mutate_script(sound, mutant), encoding="utf-8")
+        path.write_text(mutant["text"] if "text" in mutant else mutate_script(sound, mutant), encoding="utf-8")
     try:
-        yield
+        yield "text" not in mutant or build(directory.parent, directory, mutant["tests"])
     finally:
         if sound is not None:
             path.write_text(sound, encoding="utf-8")
@@ -353,21 +406,29 @@ def prepare(mutants, options, directory, overlay):
     if compiled and not options.no_build:
         chosen = compiled if options.random else [m for m in read_list(LISTS[0]) if not is_script(m)]
         make_tree(chosen, directory.parent)
-        build(directory.parent, directory, [p for m in compiled for p in m["tests"]] if options.random and not options.all else None)
+        if not build(directory.parent, directory, [p for m in compiled for p in m["tests"]] if options.random and not options.all else None):
+            sys.exit(f"mutants: the build failed; see {directory.parent.parent / 'build.log'}")
     if len(compiled) < len(mutants):
         overlay.mkdir(parents=True, exist_ok=True)
         make_overlay(overlay, options.build.resolve(), options.timeout)
 
 
-def judge(mutants, options, directory, overlay):
-    """Runs the tests against each; prints the table. Its lines, and the survivors."""
+def judge(mutants, count, options, directory, overlay):
+    """Runs the tests against that many that compile; prints the table. Its lines, and the survivors."""
     lines = ["| room | mutant | what it means | killed by |", "|---|---|---|---|"]
     print("\n".join(lines), flush=True)
     survivors, sound = [], {}
     for mutant in mutants:
+        if len(lines) == 2 + count:
+            break
         begin, place = time.monotonic(), overlay / "build" if is_script(mutant) else directory
-        with put_into(overlay, mutant):
+        with put_into(overlay, mutant, directory) as is_built:
+            if not is_built:
+                print(f"    {mutant['name']} does not compile: {mutant['meaning']}", file=sys.stderr, flush=True)
+                continue
             killer = kill(place, mutant, options.all)
+        if "text" in mutant:
+            place = options.build.resolve()  # without mutant
         if killer == SKIPPED:
             sound[place, killer] = True
         elif killer and (place, killer) not in sound:
@@ -388,6 +449,7 @@ def main():
     parser.add_argument("--only", default="", help="mutants whose name has this regular expression")
     parser.add_argument("--python", action="store_true", help="those of Python only")
     parser.add_argument("--random", type=int, metavar="N", help="that many of them")
+    parser.add_argument("--invent", type=int, metavar="N", help="that many new ones, by random changes of source/")
     parser.add_argument("--seed", default="", help="of the choice")
     parser.add_argument("--all", action="store_true", help="all other tests against those that survive")
     parser.add_argument("--table", type=Path, help="write the table to this file")
@@ -409,14 +471,18 @@ def main():
             chosen = [m for m in chosen if not m["file"].endswith(".h")]
             chosen = random.Random(options.seed).sample(chosen, min(options.random, len(chosen)))
             print(f"{len(chosen)} mutants by the seed {options.seed or '(none)'}: {', '.join(m['name'] for m in chosen)}\n", flush=True)
-        prepare(chosen, options, directory, overlay)
-        lines, survivors = judge(chosen, options, directory, overlay)
+        if options.invent:
+            write_tree(sources(*NEEDED), directory.parent)
+        else:
+            prepare(chosen, options, directory, overlay)
+        count = options.invent or len(chosen)
+        lines, survivors = judge(invent(options.seed) if options.invent else chosen, count, options, directory, overlay)
     except Misfit as misfit:
         print(f"mutants: {misfit}", file=sys.stderr)
         return 2
     if options.table:
         options.table.write_text("\n".join(lines) + "\n")
-    print(f"\n{len(chosen)} mutants, {len(survivors)} survive{': ' + ', '.join(survivors) if survivors else ''}")
+    print(f"\n{count} mutants, {len(survivors)} survive{': ' + ', '.join(survivors) if survivors else ''}")
     return 1 if survivors else 0
 
 

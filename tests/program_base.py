@@ -14,9 +14,8 @@ GOLDEN = Path(__file__).resolve().parent / "golden"
 sys.path.insert(0, str(GOLDEN))
 import meshes  # noqa: E402
 from compare import scene  # noqa: E402
-from program_physics import settings  # noqa: E402
 import run_program  # noqa: E402
-from run_program import expect, refused, run_cases, runs, same_to_the_bit, summary, table, write_scene  # noqa: E402
+from run_program import expect, refused, run_cases, runs, same_to_the_bit, settings, summary, table, write_scene  # noqa: E402
 
 G, RIGID = 9.81, 1e14  # gravity [m/s2], Young's modulus of rigid blocks [Pa]
 
@@ -437,36 +436,5 @@ def same_to_the_bit_but_joints(a, b):
         expect(Path(a, f"{name}.csv").read_bytes() == Path(b, f"{name}.csv").read_bytes(), f"{name}.csv of {a} and {b}")
 
 
-def resume():
-    """Killed in the middle, it goes on with the elastic base as it was, on the rigid base and on rock."""
-    write_scene()
-    for base, given in (("rigid", ("Joints/Normal stiffness=1e11", "Joints/Adhesion=1 MPa")),
-                        ("massless", ("Foundation/Model=massless", "Mesh/Arch210/Lift joints=1"))):
-        more = [*ARCH, *BASE, *settings(*given, "Motion/Duration=1.5", "Output/Checkpoint interval=20", "Output/Progress interval=10")]
-        shown = runs("scene.prm", "--output", f"whole_{base}", *more)
-        expect("4 base joints" in shown, shown[:800])
-        expect(summary(f"whole_{base}")["energy_balance_error"] < 1e-9, f"energy balance of {base}")
-        run_program.interrupted("scene.prm", f"parts_{base}", *more)
-        runs("scene.prm", "--resume", "--output", f"parts_{base}", *more)
-        same_to_the_bit(f"whole_{base}", f"parts_{base}")
-
-
-def refusals():
-    """Base joints where they cannot be, joints that do not exist, laws that do not fit."""
-    write_scene()
-    refused(["scene.prm", *ARCH, *BASE, *settings("Foundation/Model=massless", "Dynamics/Impact=none")], "Base joints on massless rock", "mean-force")
-    refused(["scene.prm", *ARCH, *BASE, *settings("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
-                                                  "Dynamics/Steps per sample=5", "Dynamics/Impact=paper")],
-            "Joints cross", "joint 1, base 1, base 2", "mean-force")
-    refused(["scene.prm", *ARCH, *BASE, *settings("Joints/Overrides=base 9: tied")], "base 9", "7 joints")
-    refused(["scene.prm", *ARCH, *settings("Joints/Overrides=base: tied")], "\"base\"", "contraction")
-    refused(["scene.prm", *ARCH, *BASE, *settings("Loads/Uplift/Joints=true", "Loads/Uplift/Base=true")], "Uplift/Joints", "Uplift/Base")
-    refused(["scene.prm", *ARCH, *settings("Joints/Adhesion=1 MPa", "Joints/Friction=0")], "Adhesion", "Friction")
-    for more, *parts in (("Mesh/Arch210/Joints=0", "no contraction joints"), ("Joints/Overrides=contraction: tied", "all contraction joints are tied")):
-        refused(["scene.prm", *ARCH, *BASE, *settings("Statics/Stages=grout 100, fill 100", more)], "Statics/Stages", "grouts joints", *parts)
-    refused(["scene.prm", *ARCH, *settings("Joints/Normal stiffness=1e11", "Joints/Equations=fischer-burmeister")], "alart-curnier")
-    refused(["scene.prm", *ARCH, *settings("Joints/Normal stiffness=1e11", "Dynamics/Impact=paper")], "mean-force")
-
-
 if __name__ == "__main__":
-    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, rock_water, rock_edges, arch, stages, resume, refusals)
+    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, rock_water, rock_edges, arch, stages)

@@ -7,10 +7,7 @@
 
 import json
 import math
-import signal
-import subprocess
 import sys
-import time
 from pathlib import Path
 
 GOLDEN = Path(__file__).resolve().parent / "golden"
@@ -18,9 +15,8 @@ sys.path.insert(0, str(GOLDEN))
 import meshes  # noqa: E402
 import scenes  # noqa: E402
 from compare import GRAVITY, scene  # noqa: E402
-from program_physics import close, settings  # noqa: E402
-import run_program  # noqa: E402
-from run_program import expect, reports, run_cases, runs, same, summary, table, write, write_scene  # noqa: E402
+from program_physics import close  # noqa: E402
+from run_program import expect, reports, run_cases, runs, settings, summary, table, write, write_scene  # noqa: E402
 
 COLUMNS = ("N", "V_stream", "V_arch", "M_stream", "M_arch", "torsion")
 H, S, T = 40., .25, .5  # of the wedge: height of its crest above the heel's middle, falls of its base downstream and across
@@ -166,30 +162,6 @@ def shaken():
            "the axes look to the left bank, and into the monoliths")
 
 
-def resume():
-    """A run that goes on has the rows that it would have had."""
-    write_scene()
-    for name, foundation in (("rigid", []), ("rock", ["Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true",
-                                                       "Mesh/Arch210/Rock/Element size=60", "Motion/Time step=0.002"])):
-        both = settings("Output/Checkpoint interval=20", "Motion/Duration=0.4", "Limits/Base friction=1", *foundation)
-        runs("scene.prm", "--output", f"{name}_whole", *both)
-        interrupted(name, both)
-        same(f"{name}_killed", f"{name}_whole", 0., ("blocks", "history"))
-        first, second = (summary(f"{name}_{which}")["blocks"] for which in ("whole", "killed"))
-        expect(first == second, "the extremes of a run that was resumed")
-
-
-def interrupted(name, arguments):
-    process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", f"{name}_killed", *arguments],
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while not Path(f"{name}_killed/checkpoint.bin").exists() and process.poll() is None:
-        time.sleep(.002)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-    expect(Path(f"{name}_killed/checkpoint.bin").exists(), "killed before its end")
-    runs("scene.prm", "--output", f"{name}_killed", *arguments, "--resume")
-
-
 def limits():
     """What is not asked for is not there; what cannot be judged is said; the report has all of it."""
     write_scene()
@@ -248,4 +220,4 @@ def calculix():
 
 
 if __name__ == "__main__":
-    run_cases(hand, shaken, resume, limits, calculix)
+    run_cases(hand, shaken, limits, calculix)

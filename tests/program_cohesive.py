@@ -7,14 +7,10 @@
 
 import math
 import random
-import signal
-import subprocess
-import time
 from pathlib import Path
 
 import run_program
-from run_program import (run_cases, arch_mesh, double, expect, from_file, read_mesh, refused, runs, same, same_to_the_bit, summary,
-                         table, write_mesh, write_scene)
+from run_program import arch_mesh, double, expect, from_file, read_mesh, run_cases, runs, same, summary, table, write_mesh, write_scene
 
 EXACT = ("--set", "Dynamics/Factors=double")  # tests of round-off
 SHORT = [*EXACT, *(x for e in ("Motion/Duration=1", "Output/Envelope interval=0") for x in ("--set", e))]
@@ -53,23 +49,6 @@ def energy():
     names, _ = table("fja/energy.csv")
     expect("joint_fracture" not in names and "bond" not in names, "no column of bonds without bonds")
     expect(all(1e-4 < opening for opening in openings), f"the joints open: {openings}")
-
-
-def resume():
-    """Killed in the middle, it goes on with the bonds as they were."""
-    write_scene()
-    settings = [*SHORT, *cohesive("1 MPa", "300"), "--set", "Output/Checkpoint interval=20", "--set",
-                "Output/Progress interval=10"]
-    runs("scene.prm", "--output", "whole", *settings)
-    process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", "killed", *settings],
-                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    while not Path("killed/checkpoint.bin").exists() and process.poll() is None:
-        time.sleep(.01)
-    process.send_signal(signal.SIGKILL)
-    process.wait()
-    expect(Path("killed/checkpoint.bin").exists(), "killed before its end")
-    runs("scene.prm", "--output", "killed", *settings, "--resume")
-    same_to_the_bit("whole", "killed")
 
 
 def shuffled(mesh, seed):
@@ -126,10 +105,6 @@ def numbers():
 
 def entries():
     write_scene()
-    refused(["scene.prm", "--output", "x", *SHORT, *cohesive("1 MPa", "0"), "--set",
-             "Dynamics/Impact=impulse-consistent", "--validate"], "cohesive", "Dynamics/Impact", "mean-force")
-    refused(["scene.prm", "--output", "x", *SHORT, *cohesive("1 MPa", "0"), "--set", "Joints/Equations=paper"],
-            "cohesive", "alart-curnier")
     expect("Joints/Strength" in run_program.voussoir("scene.prm", "--validate", "--set", "Joints/Strength=1 MPa").stdout,
            "a strength without effect is warned of")
     expect("Joints/Strength is 0" in run_program.voussoir("scene.prm", "--validate", "--set", "Joints/Model=cohesive").stdout,
@@ -163,4 +138,4 @@ def entries():
 
 
 if __name__ == "__main__":
-    run_cases(limits, energy, resume, numbers, entries)
+    run_cases(limits, energy, numbers, entries)

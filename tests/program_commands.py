@@ -13,11 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from run_program import VOUSSOIR, arch_mesh, expect, frequencies, refused, run_cases, runs, voussoir, write, write_scene
-
-
-def settings(*entries):
-    return [x for entry in entries for x in ("--set", entry)]
+from run_program import VOUSSOIR, arch_mesh, expect, frequencies, refused, run_cases, runs, settings, voussoir, write, write_scene
 
 
 def spelling():

@@ -14,9 +14,7 @@ GOLDEN = Path(__file__).resolve().parent / "golden"
 sys.path.insert(0, str(GOLDEN))
 import meshes  # noqa: E402
 from compare import at_places, key, read_vtu, scene  # noqa: E402
-from program_physics import settings  # noqa: E402
-import run_program  # noqa: E402
-from run_program import expect, refused, run_cases, runs, same_to_the_bit, summary, table, write, write_scene  # noqa: E402
+from run_program import expect, run_cases, runs, settings, summary, table, write, write_scene  # noqa: E402
 
 EXPANSION = 1e-5  # coefficient of thermal expansion [1/K]
 
@@ -178,36 +176,5 @@ def shaken():
     expect(table("gaps/joint_history.csv")[1][-1] != table("none/joint_history.csv")[1][-1], "the gaps have an effect")
 
 
-def resume():
-    """Killed in the middle, it goes on with the gaps, the grout and the cut as they were."""
-    write_scene()
-    more = [*ARCH, *settings("Output/Checkpoint interval=10", "Output/Progress interval=10", "Mesh/Arch210/Elements through=2")]
-    runs("scene.prm", "--output", "whole", *more)
-    run_program.interrupted("scene.prm", "parts", *more)
-    expect(Path("parts/checkpoint.bin").exists(), "no checkpoint")
-    runs("scene.prm", "--resume", "--output", "parts", *more)
-    same_to_the_bit("whole", "parts")
-
-
-def refusals():
-    """Gaps and cuts of joints that do not exist or are tied; amounts that are no lengths or pressures."""
-    write_scene()
-    refused(["scene.prm", *settings("Statics/Stages=cut 9 by 1 mm")], "Statics/Stages", "joint 9", "2 joints")
-    refused(["scene.prm", *settings("Statics/Stages=cut base by 1 mm")], "\"base\"")
-    refused(["scene.prm", *settings("Statics/Stages=cut contraction by 1 mm", "Joints/Overrides=1: tied")], "cuts joint 1", "tied")
-    refused(["scene.prm", *settings("Statics/Stages=cut 1 by 0"), "--validate"], "cut 1 by 0", "cut J by W")
-    refused(["scene.prm", *settings("Statics/Stages=cut 1 by -1 mm")], "cut J by W")
-    refused(["scene.prm", *settings("Statics/Stages=cut 1")], "cut J by W")
-    refused(["scene.prm", *settings("Statics/Stages=cut 1 by 1 MPa")], "width", "unit of pressure")
-    refused(["scene.prm", *settings("Statics/Stages=grout 100 at 3 m")], "pressure", "unit of length")
-    refused(["scene.prm", *settings("Statics/Stages=grout 100 at -1")], "grout Z at P")
-    refused(["scene.prm", *settings("Statics/Stages=fill 100 at 1 MPa")], "fill Z")
-    refused(["scene.prm", *settings("Joints/Initial gaps=1: -1 mm")], "Initial gaps", "-1 mm")
-    refused(["scene.prm", *settings("Joints/Initial gaps=1: wide")], "Initial gaps", "wide")
-    refused(["scene.prm", *settings("Joints/Initial gaps=1: 2 s")], "Initial gaps", "unit of time")
-    refused(["scene.prm", *settings("Joints/Initial gaps=4: 1 mm")], "Initial gaps", "joint 4", "2 joints")
-    refused(["scene.prm", *settings("Joints/Initial gaps=1: 1 mm", "Joints/Overrides=1: tied")], "gap of joint 1", "tied")
-
-
 if __name__ == "__main__":
-    run_cases(grout, cut, bond, ungrouted, blocks, shaken, resume, refusals)
+    run_cases(grout, cut, bond, ungrouted, blocks, shaken)

@@ -19,9 +19,9 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
 from browser import Browser, find_browser
-from program_report import LIMITS, Reader, settings
+from program_report import LIMITS, Reader
 from voussoir import report_view3d as view3d
-from run_program import expect, refused, run_cases, runs, summary, voussoir, write_scene
+from run_program import expect, refused, run_cases, runs, settings, summary, voussoir, write_scene
 
 SCRIPTS = view3d.libraries()[0]  # of the view
 HOSTILE = """"'></title></style></td><script>document.write('<a href="https://ran.invalid/">x</a>')</script><iframe src="{}"></iframe><x-hostile onload=ran()>&lt;"""

@@ -13,9 +13,7 @@ sys.path.insert(0, str(GOLDEN))
 import meshes  # noqa: E402
 from compare import scene  # noqa: E402
 from program_base import ARCH, BASE, G, RIGID, pulse, sections  # noqa: E402
-from program_physics import settings  # noqa: E402
-import run_program  # noqa: E402
-from run_program import expect, refused, run_cases, runs, same_to_the_bit, summary, table, write_scene  # noqa: E402
+from run_program import expect, run_cases, runs, settings, summary, table, write_scene  # noqa: E402
 
 LIFTS = settings("Mesh/Arch210/Lift joints=2")
 EXACT = settings("Dynamics/Factors=double")  # tests of round-off
@@ -191,33 +189,5 @@ def arch():
     expect("tied lift joints" in choices, choices)
 
 
-def resume():
-    """Two threads, and a run that goes on from its checkpoint, give the same bits."""
-    write_scene()
-    more = [*ARCH, *LIFTS, *settings("Motion/Duration=0.6", "Output/Checkpoint interval=20", "Output/Progress interval=10")]
-    runs("scene.prm", "--output", "whole", *more)
-    runs("scene.prm", "--output", "threads", *more, environment={"OMP_NUM_THREADS": "2"})
-    same_to_the_bit("whole", "threads")
-    run_program.interrupted("scene.prm", "parts", *more)
-    runs("scene.prm", "--resume", "--output", "parts", *more)
-    same_to_the_bit("whole", "parts")
-
-
-def refusals():
-    """Lift joints where they cannot be, and names that are wrong."""
-    write_scene()
-    refused(["scene.prm", *ARCH, *LIFTS, *settings("Joints/Model=KSM")], "KSM", "keys")
-    refused(["scene.prm", *ARCH, *LIFTS, *settings("Dynamics/Impact=paper")], "Joints cross", "mean-force")
-    refused(["scene.prm", *ARCH, *LIFTS, *settings("Joints/Overrides=lift 2.7: tied")], "lift 2.7")
-    refused(["scene.prm", *ARCH, *settings("Mesh/Arch210/Lift joints=6")], "Lift joints", "6 rows")
-    for more in ("Joints/Initial gaps=lift 2.1: 1 mm", "Statics/Stages=cut lift 2.1 by 1 mm"):
-        refused(["scene.prm", *ARCH, *LIFTS, *settings("Joints/Overrides=lift: tied", more)], "lift 2.1", "tied")
-    refused(["scene.prm", *ARCH, *LIFTS, *settings("Joints/Overrides=99999999999999999999: tied")], "99999999999999999999")
-    wall("gap.msh", 1, 2, 3)
-    text = Path("gap.msh").read_text().replace("lift 3", "lift 4")
-    Path("gap.msh").write_text(text)
-    refused([scene("gap", "gap.msh", **sections({"joints": {}}))], "lifts of monolith 1", "gaps")
-
-
 if __name__ == "__main__":
-    run_cases(stack, slide, tied, stepped, cross, arch, resume, refusals)
+    run_cases(stack, slide, tied, stepped, cross, arch)

@@ -5,14 +5,8 @@
     program_massless.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
-import signal
-import subprocess
-import time
-from pathlib import Path
 
-import run_program
-from program_watch import settings
-from run_program import expect, refused, run_cases, runs, same, same_to_the_bit, summary, table, write_scene
+from run_program import expect, refused, run_cases, runs, same, settings, stop_and_resume, summary, table, write_scene
 
 MASSLESS = settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                     "Motion/Duration=1", "Output/Figures=false", "Contact/Tolerance=1e-12")
@@ -69,14 +63,6 @@ def halved():
     expect(balance < 1e-9, f"the rock's account closes to {balance:.1e}")
 
 
-def resume():
-    """Killed in the middle, it goes on as if it had not been."""
-    write_scene()
-    chosen = [*MASSLESS, *settings("Joints/Model=FJA", "Output/Checkpoint interval=20", *SUSTAINED)]
-    runs("scene.prm", "--output", "whole", *chosen)
-    stop_and_resume("whole", chosen)
-
-
 def records(**files):
     """Writes records of 1 s: name -> factor of three smooth components, from rest to rest."""
     from math import pi, sin
@@ -129,16 +115,5 @@ def abutments():
     refused(["scene.prm", *different, "--set", "Motion/Abutments=left 3: nowhere.txt"], "nowhere.txt")
 
 
-def stop_and_resume(whole, chosen):
-    """Kills a second run after its first checkpoint, resumes it, and compares it with the first one."""
-    process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", "killed", "--overwrite", *chosen], stdout=subprocess.DEVNULL)
-    while process.poll() is None and not Path("killed", "checkpoint.txt").exists():
-        time.sleep(.001)
-    process.send_signal(signal.SIGKILL)
-    expect(process.wait() == -signal.SIGKILL, "it ended before it could be killed")
-    runs("scene.prm", "--output", "killed", *chosen, "--resume")
-    same_to_the_bit(whole, "killed")
-
-
 if __name__ == "__main__":
-    run_cases(one_body, halved, resume, abutments)
+    run_cases(one_body, halved, abutments)

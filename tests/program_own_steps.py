@@ -5,15 +5,8 @@
     program_own_steps.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
-import re
-import signal
-import subprocess
-import time
-from pathlib import Path
 
-import run_program
-from program_watch import settings
-from run_program import expect, refused, run_cases, runs, same, same_to_the_bit, summary, table, write_scene
+from run_program import expect, run_cases, runs, same, settings, summary, table, write_scene
 
 ROCK = settings("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                 "Motion/Duration=1", "Output/Envelope interval=0", "Output/Figures=false")
@@ -84,23 +77,6 @@ def accuracy():
     expect(off < .002, f"crest off by {off}")  # 0.0010; 0.0033 if the earthquake is half a step early
 
 
-def resume():
-    """Killed in the middle, it goes on as if it had not been, to the last bit."""
-    write_scene()
-    for law in ("tied", "FJA"):
-        whole, killed = f"whole_{law}", f"killed_{law}"
-        chosen = [*OWN, *settings(f"Joints/Model={law}", "Output/Checkpoint interval=20")]
-        runs("scene.prm", "--output", whole, *chosen)
-        process = subprocess.Popen([run_program.VOUSSOIR, "scene.prm", "--output", killed, *chosen],
-                                   stdout=subprocess.DEVNULL)
-        while process.poll() is None and not Path(killed, "checkpoint.txt").exists():
-            time.sleep(.001)
-        process.send_signal(signal.SIGKILL)
-        expect(process.wait() == -signal.SIGKILL, "it ended before it could be killed")
-        runs("scene.prm", "--output", killed, *chosen, "--resume")
-        same_to_the_bit(whole, killed)
-
-
 def threads():
     """The same to the last bit for any number of threads; the static state is that of tied feet."""
     write_scene()
@@ -117,30 +93,5 @@ def threads():
     expect(abs(crest[0]) > 1e-4 and abs(crest[0] / crest[1] - 1.) < 1e-7, f"static state: {crest}")
 
 
-def entries():
-    """What does not fit is refused before the run; --validate names the coupling."""
-    write_scene()
-    expect("mean tractions" in runs("scene.prm", "--validate", *OWN), "--validate names the coupling")
-    expect("mean tractions" not in runs("scene.prm", "--validate", *ROCK, *settings("Dynamics/Steps per sample=8")),
-           "one step for all is the partition")
-    refused(["scene.prm", "--validate", *OWN, *settings("Dynamics/Impact=paper")], "mean-force", "Dynamics/Impact")
-    for coupling, m in (("auto", 4), ("partition", 1)):
-        refused(["scene.prm", "--validate", *ROCK, *settings("Contact/Write problems=true", f"Foundation/Coupling={coupling}",
-                                                             f"Foundation/Substeps={m}")], "Foundation/Model")
-    refused(["scene.prm", "--validate", *ROCK, *settings("Foundation/Substeps=50", "Dynamics/Steps per sample=1")],
-            "layers", "Foundation/Substeps")
-    large = settings("Foundation/Substeps=1", "Dynamics/Steps per sample=1")
-    refused(["scene.prm", "--validate", *ROCK, *large], "Steps per sample", "\"Foundation/Substeps\" to")
-    for other in ("Dynamics/Impact=paper", "Foundation/Coupling=partition"):  # these exclude substeps
-        message = refused(["scene.prm", "--validate", *ROCK, *large, *settings(other)], "Steps per sample")
-        expect("Substeps" not in message and "Coupling" not in message, message)
-    near = [*ROCK, *settings("Mesh/Arch210/Joints=2", "Mesh/Arch210/Elements along=9", "Mesh/Arch210/Elements up=4", "Mesh/Arch210/Elements through=2",
-                             *(f"Mesh/Arch210/Rock/{side}=100" for side in ("Upstream", "Downstream", "Sides", "Depth")))]
-    shown = runs("scene.prm", "--validate", *near, *settings("Foundation/Substeps=0", "Dynamics/Steps per sample=1"))
-    steps = int(re.search(r"(\d+) rock steps", shown).group(1))  # the boundary requires more of them than the critical time step
-    refused(["scene.prm", "--validate", *near, *settings(f"Foundation/Substeps={steps - 1}", "Dynamics/Steps per sample=1")],
-            "artificial boundary", "node spacing", f"\"Foundation/Substeps\" to {steps}")
-
-
 if __name__ == "__main__":
-    run_cases(laws, joints, halved, accuracy, resume, threads, entries)
+    run_cases(laws, joints, halved, accuracy, threads)

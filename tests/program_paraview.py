@@ -15,8 +15,7 @@ import sys
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
-from program_physics import settings
-from run_program import expect, run_cases, runs, write_scene
+from run_program import expect, run_cases, runs, settings, write_scene
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 STATE = SCRIPTS / "paraview_state.py"

@@ -12,16 +12,12 @@ from pathlib import Path
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
-from run_program import frequencies, run_cases, expect, runs, summary, table, write_scene  # noqa: E402
+from run_program import expect, frequencies, run_cases, runs, settings, summary, table, write_scene  # noqa: E402
 from voussoir.vtu import read_vtu  # noqa: E402
 
 TIED = ["--set", "Joints/Model=tied"]
 STILL = ["--set", "Motion/Source=none", "--set", "Motion/File="]
 ROCK = ["--set", "Mesh/Arch210/Rock/Enabled=true", "--set", "Mesh/Arch210/Rock/Element size=60"]
-
-
-def settings(*entries):
-    return [x for entry in entries for x in ("--set", entry)]
 
 
 def close(value, expected, relative, what):

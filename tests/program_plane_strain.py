@@ -15,8 +15,7 @@ import meshes  # noqa: E402
 import plane_elements  # noqa: E402
 from compare import STRESS, read_vtu, scene  # noqa: E402
 from program_sustained import agree  # noqa: E402
-from program_watch import settings  # noqa: E402
-from run_program import expect, refused, run_cases, runs, same, table, write_scene  # noqa: E402
+from run_program import expect, run_cases, runs, same, settings, table, write_scene  # noqa: E402
 from voussoir.zone_tension import zone_means  # noqa: E402
 
 KOYNA = 31.027e9, .2, 2643.  # Young's modulus, Poisson's ratio, density
@@ -95,22 +94,5 @@ def joint():
         expect(all(row[header.index("crest_y")] == 0 for row in rows), f"{directory}: the crest moves along y")
 
 
-def entries():
-    """prm/koyna.prm has no warning; dams and models that cannot be in plane strain are refused."""
-    shown = runs(str(HERE.parent / "prm" / "koyna.prm"), "--validate")
-    expect("plane strain" in shown and "warning" not in shown, shown)
-    write_scene()
-    plane = settings("Mesh/Plane strain=true")
-    refused(["scene.prm", "--validate", *plane], "Mesh/Plane strain", "the same section at each y", "slice")
-    refused(["scene.prm", "--validate", *plane, *settings("Foundation/Model=massless")], "rigid base", "Foundation/Model")
-    koyna.write("koyna.msh", 4, 10, along=2, thickness=10.)
-    own = [*PLANE, *settings("Mesh/File=koyna.msh", "Reservoir/Density=1000", "Reservoir/Water level=95")]
-    refused(["scene.prm", "--validate", *own, *settings("Reservoir/Model=acoustic", "Reservoir/Reflection=0.8")], "Reservoir/Reflection", "to 1")
-    across = meshes.block(lambda i, j, k: (10. * j, 5. * i, 20. * k), (1, 2), 2, 2, {**meshes.DAM, "right": None, "left": None})
-    meshes.write("across.msh", *across)
-    refused(["scene.prm", "--validate", *own, *settings("Mesh/File=across.msh", "Reservoir/Water level=35")], "(5, 5, 10) m",
-            "without joints across y")
-
-
 if __name__ == "__main__":
-    run_cases(modes, column, joint, entries)
+    run_cases(modes, column, joint)

@@ -15,8 +15,7 @@ import time
 from pathlib import Path
 
 import run_program
-from program_watch import settings
-from run_program import contact_program, expect, run_cases, runs, succeeds, write, write_scene
+from run_program import contact_program, expect, run_cases, runs, settings, succeeds, write, write_scene
 
 os.environ.update(OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1", OMP_NUM_THREADS="1")
 SHORT = settings("Motion/Duration=0.3", "Output/Solution interval=10")

@@ -20,7 +20,8 @@ from unittest import mock
 
 from browser import Browser, find_browser
 from program_physics import Solution, close, read_vtu
-from run_program import arch_mesh, expect, from_file, refused, report, reports, run_cases, runs, summary, voussoir, write_mesh, write_scene
+from run_program import (arch_mesh, expect, from_file, refused, report, reports, run_cases, runs, settings, summary, voussoir, write_mesh,
+                         write_scene)
 
 LIMITS = """
 subsection Limits
@@ -764,10 +765,6 @@ def spectrum():
 def table(name):
     with open(name) as file:
         return list(csv.DictReader(file))
-
-
-def settings(*entries):
-    return [word for entry in entries for word in ("--set", entry)]
 
 
 def close_enough(a, b):

@@ -11,8 +11,8 @@ import shutil
 from math import pi, sin
 from pathlib import Path
 
-from program_watch import ROCK, settings
-from run_program import expect, run_cases, refused, runs, same_to_the_bit, summary, table, voussoir, write_scene
+from program_watch import ROCK
+from run_program import expect, refused, run_cases, runs, same_to_the_bit, settings, summary, table, voussoir, write_scene
 
 
 def sections():

@@ -19,10 +19,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 from voussoir.vtu import read_vtu  # noqa: E402
-from program_physics import settings  # noqa: E402
 from program_wedges import write_wedges  # noqa: E402
-from run_program import (VOUSSOIR, arch_mesh, expect, from_file, refused, run_cases, runs, same, table, voussoir, write,
-                         write_scene)  # noqa: E402
+from run_program import (VOUSSOIR, arch_mesh, expect, refused, run_cases, runs, same, settings, table, voussoir, write,  # noqa: E402
+                         write_scene)
 
 LONG = ["--set", "Motion/Duration=3"]
 

@@ -12,8 +12,8 @@ import sys
 from pathlib import Path
 from types import SimpleNamespace
 
-from program_physics import close, settings
-from run_program import VOUSSOIR, expect, run_cases, runs, summary, write_scene
+from program_physics import close
+from run_program import VOUSSOIR, expect, run_cases, runs, settings, summary, write_scene
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
 

@@ -15,8 +15,8 @@ sys.path.insert(0, str(GOLDEN))
 import meshes  # noqa: E402
 from compare import read_vtu, scene  # noqa: E402
 from program_blocks import blocks, force  # noqa: E402
-from program_physics import close, settings  # noqa: E402
-from run_program import expect, refused, run_cases, runs, summary, table, voussoir, write  # noqa: E402
+from program_physics import close  # noqa: E402
+from run_program import expect, run_cases, runs, settings, summary, table, voussoir, write  # noqa: E402
 
 G = 9.80665
 ARTIFICIAL = """
@@ -204,23 +204,5 @@ def maxima(name, modes):
     return result
 
 
-def refusals():
-    """Spectra that cannot be used, and warnings."""
-    write("scene.prm", ARTIFICIAL)
-    run = ["modes", "scene.prm", "--count", "1"]
-    refused([*run, "--spectrum", "nothing.csv"], "nothing.csv", "--spectrum design")
-    refused([*run, "--spectrum"], "--spectrum", "needs a value")
-    refused([*run, "--spectrum", "design", *settings("Motion/Source=none")], "Motion/Source is none", "artificial")
-    refused([*run, "--spectrum", "design", *settings("Motion/Factor=0")], "zero", "Motion/Factor")
-    refused(["scene.prm", "--spectrum", "design"], "no option --spectrum", "`voussoir modes`")
-    write("short.csv", "0 3\n0.1 7\n")
-    refused([*run, "--spectrum", "short.csv"], "short.csv ends", "0.1 s")
-    write("weak.csv", "0 0.3\n4 0.1\n")
-    result = voussoir(*run, "--spectrum", "weak.csv")
-    expect(result.returncode == 0 and "weak.csv is 0.3 m/s^2" in result.stderr and "headings" in result.stderr, f"{result}")
-    result = voussoir(*run, "--spectrum", "design", *settings("Damping/Ratio=0.1"))
-    expect(result.returncode == 0 and "Motion/Damping" in result.stderr and "0.1" in result.stderr, f"{result}")
-
-
 if __name__ == "__main__":
-    run_cases(numbers, stiff, history, refusals)
+    run_cases(numbers, stiff, history)

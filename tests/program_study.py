@@ -8,7 +8,6 @@
 import csv
 import math
 import os
-import re
 import shutil
 import signal
 import subprocess
@@ -16,7 +15,7 @@ import sys
 import time
 from pathlib import Path
 
-from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, voussoir, write, write_scene
+from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, write, write_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "python"))
@@ -308,19 +307,6 @@ def joints():
     expect(Path("joints/figures/over_scale.png").exists(), "the figure over the number of joints")
 
 
-def throughput():
-    """The benchmark of a study's throughput comes to its end, with two small scenes."""
-    needs_snakemake()
-    small = ("Joints=2", "Elements along=6", "Elements up=3", "Elements through=1")
-    words = [sys.executable, str(ROOT / "benchmarks/study_throughput.py"), "--voussoir", VOUSSOIR, "--scenes", "2", "--duration", "0.32",
-             *[word for entry in small for word in ("--set", f"Mesh/Arch210/{entry}")]]
-    result = subprocess.run(words, capture_output=True, text=True, timeout=280)
-    expect(result.returncode == 0, f"{result.stdout}{result.stderr}")
-    print("   ", result.stdout.strip())
-    expect(re.fullmatch(r"2 scenes on \d+ cores: by hand [\d.]+ s, as a study [\d.]+ s: \d+ % of the throughput; "
-                        r"CPU time [\d.]+ and [\d.]+ s: \d+ %", result.stdout.strip()), result.stdout)
-
-
 if __name__ == "__main__":
     os.environ["VOUSSOIR_PROGRAM"] = VOUSSOIR
-    run_cases(refusals, table, killed, stopped, failing, fits, examples, joints, throughput)
+    run_cases(refusals, table, killed, stopped, failing, fits, examples, joints)

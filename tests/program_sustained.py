@@ -7,8 +7,7 @@
 
 from math import atan, cos, pi, sin, sqrt
 
-from program_watch import settings
-from run_program import FACES, expect, run_cases, runs, summary, table, voussoir, write, write_mesh, write_scene
+from run_program import FACES, expect, run_cases, runs, settings, summary, table, voussoir, write, write_mesh, write_scene
 
 YOUNG, SUSTAINED, DENSITY = 20e9, 12e9, 2500.
 BAR = settings("Mesh/Source=file", f"Concrete/Young's modulus={YOUNG}", "Concrete/Poisson's ratio=0", f"Concrete/Density={DENSITY}",

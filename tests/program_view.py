@@ -13,8 +13,8 @@ import subprocess
 import sys
 from pathlib import Path
 
-from program_physics import Solution, close, settings
-from run_program import expect, frequencies, refused, run_cases, runs, summary, voussoir, write_scene
+from program_physics import Solution, close
+from run_program import expect, frequencies, refused, run_cases, runs, settings, summary, voussoir, write_scene
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 sys.path.insert(0, str(SCRIPTS.parent / "python"))

@@ -20,8 +20,8 @@ import numpy as np
 
 from browser import Browser, find_browser
 from program_ranks import ROCK
-from program_report import Reader, settings
-from run_program import expect, refused, report, reports, run_cases, runs, summary, write_scene
+from program_report import Reader
+from run_program import expect, refused, report, reports, run_cases, runs, settings, summary, write_scene
 from voussoir.frames import Frames, joint_of
 from voussoir.picture import read_solution
 from voussoir.report_view3d import LIBRARIES, SCRIPTS, figure_of, magnification

@@ -8,15 +8,11 @@
 import re
 from pathlib import Path
 
-from run_program import run_cases, expect, refused, runs, summary, table, voussoir, write_scene
+from run_program import expect, refused, run_cases, runs, settings, summary, table, voussoir, write_scene
 
 ROCK = [x for e in ("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
                     "Dynamics/Steps per sample=5", "Joints/Model=tied", "Motion/Duration=0.3",
                     "Output/Envelope interval=0") for x in ("--set", e)]
-
-
-def settings(*entries):
-    return [x for e in entries for x in ("--set", e)]
 
 
 def layers():

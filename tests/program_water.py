@@ -18,9 +18,7 @@ sys.path.insert(0, str(GOLDEN))
 import meshes as golden  # noqa: E402
 from compare import read_vtu, scene  # noqa: E402
 from program_blocks import blocks, force  # noqa: E402
-from program_massless import stop_and_resume  # noqa: E402
-from program_physics import settings  # noqa: E402
-from run_program import expect, frequencies, refused, run_cases, runs, same, summary, table, write_scene  # noqa: E402
+from run_program import expect, frequencies, refused, run_cases, runs, same, settings, stop_and_resume, summary, table, write_scene  # noqa: E402
 
 RHO, C, H = 1000., 1440., 60.
 # Factors in double precision: tests of round-off

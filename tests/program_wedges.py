@@ -8,10 +8,8 @@
 import math
 from pathlib import Path
 
-from program_blocks import blocks, force, interrupted
-from program_physics import settings
-from program_ranks import launcher, on_ranks
-from run_program import expect, refused, reports, run_cases, runs, same_to_the_bit, summary, table, write, write_scene
+from program_blocks import blocks, force
+from run_program import expect, refused, reports, run_cases, runs, settings, summary, table, write, write_scene
 
 COARSE = Path(__file__).resolve().parent.parent / "prm" / "coarse.prm"
 HEAD = "wedge, plane, x [m], y [m], z [m], dip [deg], dip direction [deg], area [m2], friction, cohesion [Pa], uplift [Pa], volume [m3], density [kg/m3]\n"
@@ -135,22 +133,6 @@ def coarse():
     check_run("coarse")
 
 
-def resume():
-    """A run that goes on, and a run on two ranks, are the same to the bit."""
-    write_scene()
-    limit = write_wedges()
-    for name in ("rigid", "rock"):
-        both = limit + settings("Output/Checkpoint interval=20", "Motion/Duration=0.4", *RUNS[name])
-        runs("scene.prm", "--output", f"{name}_whole", *both)
-        interrupted(name, both)
-        same_to_the_bit(f"{name}_killed", f"{name}_whole")
-        expect(summary(f"{name}_whole")["wedges"] == summary(f"{name}_killed")["wedges"], "the least of a run that was resumed")
-        launcher(2)
-        status, _, message = on_ranks(2, "scene.prm", "--output", f"{name}_two", *both)
-        expect(status == 0, message)
-        same_to_the_bit(f"{name}_two", f"{name}_whole")
-
-
 def limits():
     """Limit, report, static state alone, and refusals before the run."""
     write_scene()
@@ -186,4 +168,4 @@ def limits():
 
 
 if __name__ == "__main__":
-    run_cases(forces, coarse, resume, limits)
+    run_cases(forces, coarse, limits)

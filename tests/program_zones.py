@@ -13,7 +13,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parent / "golden"))
 import meshes  # noqa: E402
 from compare import scene  # noqa: E402
-from run_program import run_cases, expect, refused, runs, summary, table, write  # noqa: E402
+from run_program import expect, refused, run_cases, runs, summary, table, write  # noqa: E402
 
 CELLS = ((1, 1, 2, 2), 2, 6)
 
@@ -54,26 +54,6 @@ def names():
     refused([scene("twice", "twice.msh")], "two physical groups have the name 'monolith 1 Heel_1'")
     write("number.msh", text.replace('"monolith 2 Heel_1"', '"monolith 2 5"'))
     refused([scene("number", "number.msh")], "'monolith 2 5'", "unknown name", "zone")
-
-
-def entries():
-    """What is no material, or no zone of the mesh, is refused with entry and zone."""
-    meshes.zoned_arch("entries.msh", *CELLS)
-    file = scene("entries", "entries.msh")
-    for value, *parts in (("hell: 24e9 .2 2400", "\"hell\"", "Did you mean \"heel\"?"),
-                          ("heel: 24e9 .2", "\"heel\"", "three values"),
-                          ("heel: 24e9 .5 2400", "\"heel\"", "Poisson's ratio", "from 0 to 0.499"),
-                          ("heel: -24e9 .2 2400", "\"heel\"", "modulus of elasticity", "positive"),
-                          ("heel: 24e9 .2 0", "\"heel\"", "density", "positive"),
-                          ("heel: 24 kN/m^3 .2 2400", "\"heel\"", "Pa"),
-                          ("heel: 24e9 .2 2400, Heel: 2e9 .2 2400", "twice"),
-                          ("Höcker: 24e9 .2 2400", "\"Höcker\"", "letters"),
-                          ("heel 24e9 .2 2400", "Concrete/Zones")):
-        refused([file, "--validate", "--set", f"Concrete/Zones={value}"], "Concrete/Zones", *parts)
-    write("letters.msh", Path("entries.msh").read_text().replace("heel", "Höcker"))
-    refused([scene("letters", "letters.msh"), "--validate"], "letters.msh", "Höcker'", "letters")
-    refused([scene("generated", "entries.msh"), "--validate", "--set", "Mesh/Source=arch210", "--set",
-             "Concrete/Zones=heel: 24e9 .2 2400"], "Concrete/Zones", "no zones")
 
 
 def layer():
@@ -153,4 +133,4 @@ def rocks():
 
 
 if __name__ == "__main__":
-    run_cases(names, entries, layer, rocks)
+    run_cases(names, layer, rocks)

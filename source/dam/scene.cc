@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -52,8 +53,8 @@ namespace Voussoir
     prm.add_parameter(
         "Equations", equations_name,
         "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
-        "slip angle of the joint force, as printed. fischer-burmeister: other function. Both are for "
-        "comparison. Default alart-curnier, because it always converges.",
+        "slip angle of the joint force, as printed, for comparison. Default alart-curnier, because it always "
+        "converges.",
         Patterns::Selection(equations_names()));
     keys.add_parameters(prm);
     prm.leave_subsection();
@@ -209,21 +210,21 @@ namespace Voussoir
         "Depths below the water level whose dynamic pressure is written to history.csv, such as \"20, "
         "50\" [m]. Reservoir/Model acoustic only. The point is the middle of the upstream face at the depth.",
         Patterns::List(Patterns::Double(0.)));
-    prm.add_parameter("Envelope interval", envelope_interval,
-                      "Number of steps between two evaluations of the stress envelopes [-]. 0: no envelopes.",
-                      Patterns::Integer(0));
-    prm.add_parameter("Solution interval", solution_interval,
-                      "Number of steps between two ParaView files of the solution [-]. 0: none.",
-                      Patterns::Integer(0));
+    const auto add = [&](const char *name, OutputInterval &interval, const std::string &help)
+    {
+      prm.add_parameter(name, interval.text,
+                        help + " Number of samples of the motion, or a time with its unit, as 50 ms: a "
+                               "multiple of Motion/Time step.");
+    };
+    add("Envelope interval", envelope_interval, "Interval of the stress envelopes. 0: no envelopes.");
+    add("Solution interval", solution_interval, "Interval of the solution's ParaView files. 0: none.");
     prm.add_parameter(
         "Frames", frames,
         "Largest number of frames in frames.bin [-], from which the report makes its view of the "
         "moving dam. They are at equal intervals in the strong part of the motion. 0: none.",
         Patterns::Integer(0));
-    prm.add_parameter("Checkpoint interval", checkpoint_interval,
-                      "Number of steps between two checkpoints [-]. 0: none.", Patterns::Integer(0));
-    prm.add_parameter("Progress interval", progress_interval,
-                      "Number of steps between two progress lines [-].", Patterns::Integer(1));
+    add("Checkpoint interval", checkpoint_interval, "Interval of the checkpoints. 0: none.");
+    add("Progress interval", progress_interval, "Interval of the progress lines.");
     prm.add_parameter("Figures", figures,
                       "true: draw the figures at the end of the run. Requires python3-matplotlib.");
     prm.add_parameter(
@@ -246,6 +247,32 @@ namespace Voussoir
     probe_places();
     if (std::set<double>(pressure_depths.begin(), pressure_depths.end()).size() < pressure_depths.size())
       throw InputError("Entry \"Output/Pressure depths\" has a depth twice. Remove one.");
+  }
+
+  void OutputParameters::read_intervals(const double sample)
+  {
+    const auto read = [&](const std::string &name, OutputInterval &interval, const unsigned int least)
+    {
+      const std::string entry = "Entry \"Output/" + name + " interval\"", &text = interval.text;
+      char             *end = nullptr;
+      double            n = std::strtod(text.c_str(), &end);
+      const bool        is_time = *end != '\0' && !unit_name(end, "time").empty();
+      if (is_time)
+        n = number_in_unit(text, "s", entry) / sample;
+      const double whole = std::round(n);
+      if (text.empty() || (*end != '\0' && !is_time) || !(n >= least && n <= 1e9) ||
+          std::abs(n - whole) > (is_time ? 1e-6 * whole : 0.))
+        throw InputError(entry + " is \"" + text + "\"" +
+                         (is_time ? ", " + number_text(n) + " samples of the motion" : "") +
+                         ". It must be a number of samples from " + std::to_string(least) +
+                         ", or a time with its unit that is a multiple of Motion/Time step, " +
+                         number_text(sample) + " s.");
+      interval.samples = static_cast<unsigned int>(whole);
+    };
+    read("Envelope", envelope_interval, 0);
+    read("Solution", solution_interval, 0);
+    read("Checkpoint", checkpoint_interval, 0);
+    read("Progress", progress_interval, 1);
   }
 
   std::map<std::string, Vector3> OutputParameters::probe_places() const
@@ -319,8 +346,7 @@ namespace Voussoir
     prm.add_parameter(
         "Impact", impact_rule,
         "Joint forces and velocities of closed joints. mean-force: the forces are means over "
-        "the step, so joints never create energy. For comparison: impulse-consistent (forces at the end "
-        "of the step, with Coulomb's law for impulses), paper (Taylor and Papadopoulos) and none "
+        "the step, so joints never create energy. For comparison: paper (Taylor and Papadopoulos) and none "
         "(plain Newmark, which oscillates).",
         Patterns::Selection(impact_rule_names()));
     prm.add_parameter("Factors", factors,

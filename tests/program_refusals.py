@@ -1,0 +1,201 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests of the program: input that it must refuse, with status 2 and one paragraph. Each row of a group has the entries (texts A/B=C) or
+arguments of a run, and the parts that the message must have. Refusals of a single case stand beside the other tests of their subject.
+
+    program_refusals.py VOUSSOIR GROUP...     groups: the functions at the end of the file
+"""
+
+import re
+import sys
+from pathlib import Path
+
+HERE = Path(__file__).resolve().parent
+sys.path[:0] = [str(HERE / "golden"), str(HERE.parent / "meshes")]
+import koyna  # noqa: E402
+import meshes  # noqa: E402
+import program_base  # noqa: E402
+from compare import scene  # noqa: E402
+from program_cohesive import SHORT  # noqa: E402
+from program_lift import LIFTS, wall  # noqa: E402
+from program_own_steps import OWN, ROCK  # noqa: E402
+from program_plane_strain import PLANE  # noqa: E402
+from program_spectrum import ARTIFICIAL  # noqa: E402
+from program_zones import CELLS  # noqa: E402
+from run_program import expect, refused, run_cases, runs, settings, voussoir, write, write_scene  # noqa: E402
+
+
+def refuse(before, rows):
+    """Each row: entries, as one text or several, and a tuple of the parts of the message."""
+    for *entries, parts in rows:
+        refused([*before, *settings(*entries)], *parts)
+
+
+def base():
+    """Base joints where they cannot be, joints that do not exist, laws that do not fit."""
+    write_scene()
+    bonded = ["scene.prm", *program_base.ARCH]
+    refuse([*bonded, *program_base.BASE], (
+        ("Foundation/Model=massless", "Dynamics/Impact=none", ("Base joints on massless rock", "mean-force")),
+        ("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60", "Dynamics/Steps per sample=5",
+         "Dynamics/Impact=paper", ("Joints cross", "joint 1, base 1, base 2", "mean-force")),
+        ("Joints/Overrides=base 9: tied", ("base 9", "7 joints")),
+        ("Loads/Uplift/Joints=true", "Loads/Uplift/Base=true", ("Uplift/Joints", "Uplift/Base")),
+        ("Statics/Stages=grout 100, fill 100", "Mesh/Arch210/Joints=0", ("Statics/Stages", "grouts joints", "no contraction joints")),
+        ("Statics/Stages=grout 100, fill 100", "Joints/Overrides=contraction: tied",
+         ("Statics/Stages", "grouts joints", "all contraction joints are tied"))))
+    refuse(bonded, (
+        ("Joints/Overrides=base: tied", ("\"base\"", "contraction")),
+        ("Joints/Adhesion=1 MPa", "Joints/Friction=0", ("Adhesion", "Friction")),
+        ("Joints/Normal stiffness=1e11", "Joints/Equations=paper", ("alart-curnier",)),
+        ("Joints/Normal stiffness=1e11", "Dynamics/Impact=paper", ("mean-force",))))
+
+
+def lift():
+    """Lift joints where they cannot be, and names that are wrong."""
+    write_scene()
+    bonded = ["scene.prm", *program_base.ARCH]
+    refuse([*bonded, *LIFTS], (
+        ("Joints/Model=KSM", ("KSM", "keys")),
+        ("Dynamics/Impact=paper", ("Joints cross", "mean-force")),
+        ("Joints/Overrides=lift 2.7: tied", ("lift 2.7",)),
+        ("Joints/Overrides=lift: tied", "Joints/Initial gaps=lift 2.1: 1 mm", ("lift 2.1", "tied")),
+        ("Joints/Overrides=lift: tied", "Statics/Stages=cut lift 2.1 by 1 mm", ("lift 2.1", "tied")),
+        ("Joints/Overrides=99999999999999999999: tied", ("99999999999999999999",))))
+    refuse(bonded, (("Mesh/Arch210/Lift joints=6", ("Lift joints", "6 rows")),))
+    wall("gap.msh", 1, 2, 3)
+    write("gap.msh", Path("gap.msh").read_text().replace("lift 3", "lift 4"))
+    refused([scene("gap", "gap.msh", **program_base.sections({"joints": {}}))], "lifts of monolith 1", "gaps")
+
+
+def gaps():
+    """Gaps and cuts of joints that do not exist or are tied; amounts that are no lengths or pressures."""
+    write_scene()
+    refuse(["scene.prm"], (
+        ("Statics/Stages=cut 9 by 1 mm", ("Statics/Stages", "joint 9", "2 joints")),
+        ("Statics/Stages=cut base by 1 mm", ("\"base\"",)),
+        ("Statics/Stages=cut contraction by 1 mm", "Joints/Overrides=1: tied", ("cuts joint 1", "tied")),
+        ("Statics/Stages=cut 1 by -1 mm", ("cut J by W",)),
+        ("Statics/Stages=cut 1", ("cut J by W",)),
+        ("Statics/Stages=cut 1 by 1 MPa", ("width", "unit of pressure")),
+        ("Statics/Stages=grout 100 at 3 m", ("pressure", "unit of length")),
+        ("Statics/Stages=grout 100 at -1", ("grout Z at P",)),
+        ("Statics/Stages=fill 100 at 1 MPa", ("fill Z",)),
+        ("Joints/Initial gaps=1: -1 mm", ("Initial gaps", "-1 mm")),
+        ("Joints/Initial gaps=1: wide", ("Initial gaps", "wide")),
+        ("Joints/Initial gaps=1: 2 s", ("Initial gaps", "unit of time")),
+        ("Joints/Initial gaps=4: 1 mm", ("Initial gaps", "joint 4", "2 joints")),
+        ("Joints/Initial gaps=1: 1 mm", "Joints/Overrides=1: tied", ("gap of joint 1", "tied"))))
+    refuse(["scene.prm", "--validate"], (("Statics/Stages=cut 1 by 0", ("cut 1 by 0", "cut J by W")),))
+
+
+def cohesive():
+    """Rules and equations that do not fit a bond."""
+    write_scene()
+    refuse(["scene.prm", "--output", "x", *SHORT, *settings("Joints/Model=cohesive", "Joints/Strength=1 MPa", "Joints/Fracture energy=0")], (
+        ("Dynamics/Impact=paper", ("cohesive", "Dynamics/Impact", "mean-force")),
+        ("Joints/Equations=paper", ("cohesive", "alart-curnier"))))
+
+
+def choices():
+    """A choice that does not exist, such as one of an earlier version."""
+    write_scene()
+    refuse(["scene.prm", "--validate"], (
+        ("Dynamics/Impact=impulse-consistent", ("Dynamics/Impact", "impulse-consistent", "mean-force")),
+        ("Joints/Equations=fischer-burmeister", ("Joints/Equations", "fischer-burmeister", "alart-curnier"))))
+
+
+def intervals():
+    """Intervals of outputs: samples of the motion (10 ms), or times with a unit that are multiples of them."""
+    write_scene()
+    for entry in ("Envelope", "Solution", "Checkpoint", "Progress"):
+        refuse(["scene.prm", "--validate"], [(f"Output/{entry} interval={value}", (f"Output/{entry} interval", *parts)) for value, *parts in (
+            ("15 ms", "1.5 samples", "Motion/Time step, 0.01 s"), ("1e-9 s", "samples"), ("3 m", "from"), ("1.5", "from"), ("-1", "from"),
+            ("often", "from"))])
+    refuse(["scene.prm", "--validate"], [("Output/Progress interval=0", ("from 1",))])
+    for name, value in (("samples", "10"), ("time", "0.1 s"), ("milliseconds", "100 ms")):
+        runs("scene.prm", "--output", name, *settings(f"Output/Solution interval={value}", f"Output/Envelope interval={value}"))
+    for path in Path("samples").iterdir():
+        if path.suffix in (".csv", ".vtu", ".pvd"):
+            for other in ("time", "milliseconds"):
+                expect(path.read_bytes() == Path(other, path.name).read_bytes(), f"{path.name} of {other}")
+    expect(len(list(Path("time").glob("solution-*.vtu"))) == 6, "six solutions in 0.5 s")
+
+
+def own_steps():
+    """What does not fit subcycled rock is refused before the run; --validate names the coupling."""
+    write_scene()
+    run = ["scene.prm", "--validate"]
+    expect("mean tractions" in runs(*run, *OWN), "--validate names the coupling")
+    expect("mean tractions" not in runs(*run, *ROCK, *settings("Dynamics/Steps per sample=8")), "one step for all is the partition")
+    refuse([*run, *OWN], (("Dynamics/Impact=paper", ("mean-force", "Dynamics/Impact")),))
+    refuse([*run, *ROCK], (
+        ("Contact/Write problems=true", "Foundation/Coupling=auto", "Foundation/Substeps=4", ("Foundation/Model",)),
+        ("Contact/Write problems=true", "Foundation/Coupling=partition", "Foundation/Substeps=1", ("Foundation/Model",)),
+        ("Foundation/Substeps=50", "Dynamics/Steps per sample=1", ("layers", "Foundation/Substeps")),
+        ("Foundation/Substeps=1", "Dynamics/Steps per sample=1", ("Steps per sample", "\"Foundation/Substeps\" to"))))
+    for other in ("Dynamics/Impact=paper", "Foundation/Coupling=partition"):  # these exclude substeps
+        message = refused([*run, *ROCK, *settings("Foundation/Substeps=1", "Dynamics/Steps per sample=1", other)], "Steps per sample")
+        expect("Substeps" not in message and "Coupling" not in message, message)
+    near = [*run, *ROCK, *settings("Mesh/Arch210/Joints=2", "Mesh/Arch210/Elements along=9", "Mesh/Arch210/Elements up=4",
+                                   "Mesh/Arch210/Elements through=2", "Dynamics/Steps per sample=1",
+                                   *(f"Mesh/Arch210/Rock/{side}=100" for side in ("Upstream", "Downstream", "Sides", "Depth")))]
+    shown = runs(*near, *settings("Foundation/Substeps=0"))
+    steps = int(re.search(r"(\d+) rock steps", shown).group(1))  # the boundary requires more of them than the critical time step
+    refuse(near, ((f"Foundation/Substeps={steps - 1}", ("artificial boundary", "node spacing", f"\"Foundation/Substeps\" to {steps}")),))
+
+
+def zones():
+    """What is no material, or no zone of the mesh, is refused with entry and zone."""
+    meshes.zoned_arch("entries.msh", *CELLS)
+    refuse([scene("entries", "entries.msh"), "--validate"], [(f"Concrete/Zones={value}", ("Concrete/Zones", *parts)) for value, *parts in (
+        ("hell: 24e9 .2 2400", "\"hell\"", "Did you mean \"heel\"?"),
+        ("heel: 24e9 .2", "\"heel\"", "three values"),
+        ("heel: 24e9 .5 2400", "\"heel\"", "Poisson's ratio", "from 0 to 0.499"),
+        ("heel: -24e9 .2 2400", "\"heel\"", "modulus of elasticity", "positive"),
+        ("heel: 24e9 .2 0", "\"heel\"", "density", "positive"),
+        ("heel: 24 kN/m^3 .2 2400", "\"heel\"", "Pa"),
+        ("heel: 24e9 .2 2400, Heel: 2e9 .2 2400", "twice"),
+        ("Höcker: 24e9 .2 2400", "\"Höcker\"", "letters"),
+        ("heel 24e9 .2 2400",))])
+    write("letters.msh", Path("entries.msh").read_text().replace("heel", "Höcker"))
+    refused([scene("letters", "letters.msh"), "--validate"], "letters.msh", "Höcker'", "letters")
+    refuse([scene("generated", "entries.msh"), "--validate"], (
+        ("Mesh/Source=arch210", "Concrete/Zones=heel: 24e9 .2 2400", ("Concrete/Zones", "no zones")),))
+
+
+def plane_strain():
+    """prm/koyna.prm has no warning; dams and models that cannot be in plane strain are refused."""
+    shown = runs(str(HERE.parent / "prm" / "koyna.prm"), "--validate")
+    expect("plane strain" in shown and "warning" not in shown, shown)
+    write_scene()
+    run = ["scene.prm", "--validate"]
+    refuse(run, (("Mesh/Plane strain=true", ("Mesh/Plane strain", "the same section at each y", "slice")),
+                 ("Mesh/Plane strain=true", "Foundation/Model=massless", ("rigid base", "Foundation/Model"))))
+    koyna.write("koyna.msh", 4, 10, along=2, thickness=10.)
+    across = meshes.block(lambda i, j, k: (10. * j, 5. * i, 20. * k), (1, 2), 2, 2, {**meshes.DAM, "right": None, "left": None})
+    meshes.write("across.msh", *across)
+    refuse([*run, *PLANE, *settings("Reservoir/Density=1000")], (
+        ("Mesh/File=koyna.msh", "Reservoir/Water level=95", "Reservoir/Model=acoustic", "Reservoir/Reflection=0.8", ("Reservoir/Reflection", "to 1")),
+        ("Mesh/File=across.msh", "Reservoir/Water level=35", ("(5, 5, 10) m", "without joints across y"))))
+
+
+def spectrum():
+    """Spectra that cannot be used, and warnings."""
+    write("scene.prm", ARTIFICIAL)
+    run = ["modes", "scene.prm", "--count", "1"]
+    refused([*run, "--spectrum", "nothing.csv"], "nothing.csv", "--spectrum design")
+    refused([*run, "--spectrum"], "--spectrum", "needs a value")
+    refused(["scene.prm", "--spectrum", "design"], "no option --spectrum", "`voussoir modes`")
+    refuse([*run, "--spectrum", "design"], (("Motion/Source=none", ("Motion/Source is none", "artificial")),
+                                            ("Motion/Factor=0", ("zero", "Motion/Factor"))))
+    write("short.csv", "0 3\n0.1 7\n")
+    refused([*run, "--spectrum", "short.csv"], "short.csv ends", "0.1 s")
+    write("weak.csv", "0 0.3\n4 0.1\n")
+    for arguments, parts in ((["weak.csv"], ("weak.csv is 0.3 m/s^2", "headings")), (["design", *settings("Damping/Ratio=0.1")], ("Motion/Damping", "0.1"))):
+        result = voussoir(*run, "--spectrum", *arguments)
+        expect(result.returncode == 0 and all(part in result.stderr for part in parts), f"{result}")
+
+
+if __name__ == "__main__":
+    run_cases(base, lift, gaps, cohesive, choices, intervals, own_steps, zones, plane_strain, spectrum)
