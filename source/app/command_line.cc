@@ -56,6 +56,8 @@ namespace Voussoir
     void print_mesh(const HexMesh &mesh)
     {
       std::printf("%zu nodes, %zu hexahedra\n", mesh.nodes.size(), mesh.cells.size());
+      if (!mesh.remark.empty())
+        std::printf("%s\n", mesh.remark.c_str());
       for (const bool of_rock : {false, true})
       {
         const auto n_cells =

@@ -192,6 +192,8 @@ namespace Voussoir
     log.line("Mesh      %s: %zu cells, degree %u, %u dofs, %u monoliths; volume %.4g m3, crest %.1f m",
              scene.name.c_str(), dam.facts.n_cells, scene.elements.degree, 3 * n_nodes, dam.facts.n_monoliths,
              dam.facts.volume, dam.facts.crest_length);
+    if (!dam.facts.remark.empty())
+      log.line("          %s", dam.facts.remark.c_str());
     if (scene.mesh.plane_strain)
       log.line(
           "          plane strain: no displacements along y; forces and masses are those of a slice of %.4g m",

@@ -72,6 +72,7 @@ namespace Voussoir
     const std::string source = scene.mesh.name();
     check_axes_and_units(mesh, scene.mesh, source);
     facts.groups = group_table(mesh);
+    facts.remark = mesh.remark;
     water_volumes = mesh.water;
     facts.ungrouped = faces_without_group(mesh, scene.mesh.plane_strain);
     const HexMesh opened = open_monoliths(mesh, source);

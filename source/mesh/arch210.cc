@@ -88,7 +88,7 @@ namespace Voussoir
   HexMesh make_arch210(const Arch210Parameters &parameters)
   {
     parameters.check();
-    return make_arch(arch210_shape(), parameters);
+    return make_arch(arch210_shape(), parameters).mesh;
   }
 
   double arch210_half_width(const double z)

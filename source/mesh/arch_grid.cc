@@ -4,9 +4,11 @@
 #include <voussoir/base/model_choices.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/mesh/arch_grid.h>
+#include <voussoir/mesh/arch_rows.h>
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace Voussoir
 {
@@ -140,12 +142,6 @@ namespace Voussoir
       const ArchShape &shape;
     };
 
-    struct Columns
-    {
-      std::vector<double> s;        ///< from the right bank to the left [m]
-      std::vector<int>    monolith; ///< of the elements between two columns
-    };
-
     /** Lift joints: horizontal where the dam is high enough. Elsewhere the row of nodes follows the base, and the
      * monolith has no joint there. */
     class Lifts
@@ -203,12 +199,13 @@ namespace Voussoir
       std::vector<unsigned int> rows;   ///< of nodes in the joints
     };
 
-    Columns columns(const ArchShape &shape, const ArchGrid &grid)
+    /** Returns the columns without their bases. */
+    ArchColumns places(const ArchShape &shape, const ArchGrid &grid)
     {
       const Crest               crest(shape);
       const std::vector<double> joint = crest.joints(grid);
       const unsigned int        n_monoliths = grid.n_monoliths();
-      Columns                   result{{joint[0]}, {}};
+      ArchColumns               result{{joint[0]}, {}, {}, shape.top()};
       for (unsigned int m = 0; m < n_monoliths; ++m)
       {
         const double       width = joint[m + 1] - joint[m], element = crest.length() / grid.elements_along;
@@ -224,34 +221,117 @@ namespace Voussoir
       return result;
     }
 
-    /** Adds the nodes. @p highest: receives the highest point of the base of each column [m]. */
-    void add_nodes(const ArchShape &shape, const ArchGrid &grid, const std::vector<double> &s, HexMesh &mesh,
-                   std::vector<double> &highest)
+    /** Returns the mesh with the same number of rows in all columns, with lift joints. */
+    ArchPlane mesh_of_equal_rows(const ArchShape &shape, const ArchGrid &grid, const ArchColumns &columns)
     {
-      const Lifts        lifts(shape, grid);
-      const unsigned int n_up = grid.elements_up, n_through = grid.elements_through;
-      const double       top = shape.top();
-      for (const double place : s)
+      const Lifts         lifts(shape, grid);
+      const unsigned int  n_up = grid.elements_up, n_along = columns.monolith.size();
+      const double        top = shape.top();
+      ArchPlane           plane;
+      std::vector<double> highest; // of the bases
+      for (unsigned int i = 0; i <= n_along; ++i)
       {
-        const double bank = place < 0 ? -1 : 1;
-        const Column column = Crest(shape).column(place, grid.smallest_height);
-        column.check_valley(false);
-        std::vector<double> base;
-        for (unsigned int l = 0; l <= n_through; ++l)
-          base.push_back(column.base(2. * l / n_through - 1));
+        const auto &base = columns.base[i];
         highest.push_back(*std::max_element(base.begin(), base.end()));
+        plane.columns.emplace_back();
         for (unsigned int k = 0; k <= n_up; ++k)
-          for (unsigned int l = 0; l <= n_through; ++l)
-          {
-            const bool   is_end = k == 0 || k == n_up || grid.rows.empty();
-            const double z = grid.lift_joints > 0 ? lifts.heights(base[l])[k]
-                             : is_end             ? base[l] + (top - base[l]) * k / n_up
-                                                  : base[l] + (top - base[l]) * grid.rows[k - 1];
-            auto         node = column.node(z, 2. * l / n_through - 1);
-            node[1] *= bank;
-            mesh.nodes.push_back(node);
-          }
+        {
+          plane.columns[i].push_back(plane.s.size());
+          plane.s.push_back(columns.s[i]);
+          plane.z.emplace_back();
+          const bool is_end = k == 0 || k == n_up || grid.rows.empty();
+          for (const double z : base)
+            plane.z.back().push_back(grid.lift_joints > 0 ? lifts.heights(z)[k]
+                                     : is_end             ? z + (top - z) * k / n_up
+                                                          : z + (top - z) * grid.rows[k - 1]);
+        }
       }
+      for (unsigned int i = 0; i < n_along; ++i)
+      {
+        const auto [first, last] =
+            std::equal_range(columns.monolith.begin(), columns.monolith.end(), columns.monolith[i]);
+        const double base = *std::max_element(highest.begin() + (first - columns.monolith.begin()),
+                                              highest.begin() + (last - columns.monolith.begin()) + 1);
+        const auto  &a = plane.columns[i], &b = plane.columns[i + 1];
+        for (unsigned int k = 0; k < n_up; ++k)
+          plane.quads.push_back({{a[k], b[k], b[k + 1], a[k + 1]},
+                                 columns.monolith[i] + PhysicalId::per_lift * lifts.lift_of_row(k, base)});
+      }
+      return plane;
+    }
+
+    /** Returns the hexahedra of the layers. The node n of @p plane in the layer l is n (elements_through + 1) + l. */
+    ArchMesh extruded(const ArchShape &shape, const ArchGrid &grid, const ArchPlane &plane)
+    {
+      ArchMesh              result;
+      HexMesh              &mesh = result.mesh;
+      const unsigned int    n_through = grid.elements_through;
+      std::optional<Column> column;
+      for (unsigned int n = 0; n < plane.s.size(); ++n)
+      {
+        if (n == 0 || plane.s[n] != plane.s[n - 1])
+          column.emplace(Crest(shape).column(plane.s[n], grid.smallest_height));
+        for (unsigned int l = 0; l <= n_through; ++l)
+        {
+          mesh.nodes.push_back(column->node(plane.z[n][l], 2. * l / n_through - 1));
+          mesh.nodes.back()[1] *= plane.s[n] < 0 ? -1 : 1;
+        }
+      }
+      for (const auto &nodes : plane.columns)
+        result.base.push_back(nodes.front() * (n_through + 1));
+      for (const auto &[q, volume, middle] : plane.quads)
+        for (unsigned int l = 0; l < n_through; ++l)
+        {
+          const auto node = [&](const unsigned int v) { return q[v] * (n_through + 1) + l; };
+          mesh.cells.push_back(
+              {{node(0), node(0) + 1, node(1) + 1, node(1), node(3), node(3) + 1, node(2) + 1, node(2)},
+               volume});
+        }
+      const FaceTable table(mesh);
+      const int       base = grid.base_joint ? PhysicalId::base_joint : PhysicalId::base;
+      const int       surface[6] = {base, PhysicalId::crest,   base, PhysicalId::downstream,
+                                    base, PhysicalId::upstream}; // in the order of hex_faces
+      for (const auto &cell : mesh.cells)
+        for (unsigned int f = 0; f < 6; ++f)
+        {
+          HexMesh::Face face{{}, surface[f]};
+          for (unsigned int v = 0; v < 4; ++v)
+            face.nodes[v] = cell.nodes[hex_faces[f][v]];
+          if (table.owners(face.nodes).second == nullptr)
+            mesh.faces.push_back(face);
+        }
+      for (const auto &cell : mesh.cells)
+        mesh.names[{3, cell.volume}] = physical_name(3, cell.volume);
+      for (const auto &face : mesh.faces)
+        mesh.names[{2, face.surface}] = physical_name(2, face.surface);
+      return result;
+    }
+
+    /** Returns the mesh with rows counted from the crest, or an empty mesh if elements would be too distorted. */
+    ArchMesh mesh_from_crest(const ArchShape &shape, const ArchGrid &grid, const ArchColumns &columns)
+    {
+      constexpr double  least_wide = .25, least = .1; // scaled Jacobians
+      std::vector<bool> refused(columns.s.size(), false);
+      for (bool again = true, is_bad = false; again;)
+      {
+        const ArchPlane plane = rows_from_crest(columns, grid.elements_up, refused);
+        ArchMesh        result = extruded(shape, grid, plane);
+        HexMesh         part{result.mesh.nodes, {}, {}, {}, {}, nullptr, ""};
+        auto            cell = result.mesh.cells.begin();
+        again = is_bad = false;
+        for (const auto &quad : plane.quads)
+        {
+          part.cells.assign(cell, cell + grid.elements_through);
+          cell += grid.elements_through;
+          const double jacobian = mesh_quality(part, false).smallest_scaled_jacobian;
+          if (quad.middle > 0 && jacobian < least_wide)
+            refused[quad.middle] = again = true;
+          is_bad = is_bad || jacobian < least;
+        }
+        if (!again && !is_bad)
+          return result;
+      }
+      return {};
     }
   } // namespace
 
@@ -262,10 +342,16 @@ namespace Voussoir
         "Elements along", elements_along,
         "Total number of elements along the crest [-]. Rounded up such that each monolith has a whole number.",
         Integer(1, 10000));
-    prm.add_parameter("Elements up", elements_up, "Number of elements from the base to the crest [-].",
+    prm.add_parameter("Elements up", elements_up,
+                      "Number of elements from the base to the crest in the highest column [-].",
                       Integer(1, 1000));
     prm.add_parameter("Elements through", elements_through,
                       "Number of elements from the upstream to the downstream face [-].", Integer(1, 100));
+    prm.add_parameter(
+        "Equal rows", equal_rows,
+        "true: all columns of nodes have \"Elements up\" rows of elements, which are flat at the banks. false: rows "
+        "are about as high as in the highest column, and low columns have fewer. With lift joints or \"Rows\", or where "
+        "elements would be too distorted, all columns have equal numbers of rows; the log says so.");
     prm.add_parameter("Base joint", base_joint,
                       "true: the base is a joint with the law of section Joints, on every foundation.");
     prm.add_parameter(
@@ -276,8 +362,8 @@ namespace Voussoir
     prm.add_parameter(
         "Smallest height", smallest_height,
         "Smallest height of the dam [m]. Near the banks, where the abutment is nearer to the crest, the dam "
-        "is embedded in the bank. All rows of elements share this height. With 0, the elements at the ends "
-        "would be as flat as \"End wall height\" divided by \"Elements up\".",
+        "is embedded in the bank. With 0 and equal rows, the elements at the ends would be as flat as "
+        "\"End wall height\" divided by \"Elements up\".",
         Double(0, 20));
   }
 
@@ -357,64 +443,38 @@ namespace Voussoir
                        "be flat. Choose a height above 0, such as 5 m.");
   }
 
-  HexMesh make_arch(const ArchShape &shape, const ArchGrid &grid)
+  ArchMesh make_arch(const ArchShape &shape, const ArchGrid &grid)
   {
-    const auto [s, monolith] = columns(shape, grid);
-    const unsigned int n_along = monolith.size(), n_up = grid.elements_up, n_through = grid.elements_through;
-    HexMesh            mesh;
+    ArchColumns columns = places(shape, grid);
     Crest(shape).check_valley();
-    std::vector<double> highest;
-    add_nodes(shape, grid, s, mesh, highest);
-    const Lifts                   lifts(shape, grid);
-    std::vector<std::vector<int>> lift(grid.n_monoliths() + 1); // of the rows of each monolith
-    for (unsigned int m = 1, i = 0; m <= grid.n_monoliths(); ++m)
+    for (const double s : columns.s)
     {
-      double base = highest[i];
-      for (; i < n_along && monolith[i] == static_cast<int>(m); ++i)
-        base = std::max({base, highest[i], highest[i + 1]});
-      for (unsigned int k = 0; k < n_up; ++k)
-        lift[m].push_back(lifts.lift_of_row(k, base));
+      const Column column = Crest(shape).column(s, grid.smallest_height);
+      column.check_valley(false);
+      columns.base.emplace_back();
+      for (unsigned int l = 0; l <= grid.elements_through; ++l)
+        columns.base.back().push_back(column.base(2. * l / grid.elements_through - 1));
     }
-
-    const auto node = [&](const unsigned int i, const unsigned int k, const unsigned int l)
-    { return (i * (n_up + 1) + k) * (n_through + 1) + l; };
-    for (unsigned int i = 0; i < n_along; ++i)
-      for (unsigned int k = 0; k < n_up; ++k)
-        for (unsigned int l = 0; l < n_through; ++l)
-        {
-          const HexMesh::Cell cell{{node(i, k, l), node(i, k, l + 1), node(i + 1, k, l + 1),
-                                    node(i + 1, k, l), node(i, k + 1, l), node(i, k + 1, l + 1),
-                                    node(i + 1, k + 1, l + 1), node(i + 1, k + 1, l)},
-                                   monolith[i] + PhysicalId::per_lift * lift[monolith[i]][k]};
-          mesh.cells.push_back(cell);
-
-          // In the order of hex_faces: base, crest, right bank, downstream, left bank, upstream.
-          const bool outside[6] = {k == 0,           k + 1 == n_up, i == 0, l + 1 == n_through,
-                                   i + 1 == n_along, l == 0};
-          const int  base = grid.base_joint ? PhysicalId::base_joint : PhysicalId::base;
-          const int  surface[6] = {base, PhysicalId::crest,   base, PhysicalId::downstream,
-                                   base, PhysicalId::upstream};
-          for (unsigned int f = 0; f < 6; ++f)
-            if (outside[f])
-            {
-              HexMesh::Face face{{}, surface[f]};
-              for (unsigned int v = 0; v < 4; ++v)
-                face.nodes[v] = cell.nodes[hex_faces[f][v]];
-              mesh.faces.push_back(face);
-            }
-        }
-
-    for (const auto &cell : mesh.cells)
-      mesh.names[{3, cell.volume}] = physical_name(3, cell.volume);
-    for (const auto &face : mesh.faces)
-      mesh.names[{2, face.surface}] = physical_name(2, face.surface);
-    return mesh;
+    std::string reason = grid.lift_joints > 0 ? "\"Lift joints\" is set"
+                         : !grid.rows.empty() ? "\"Rows\" is set"
+                                              : "";
+    if (!grid.equal_rows && reason.empty())
+    {
+      if (ArchMesh mesh = mesh_from_crest(shape, grid, columns); !mesh.base.empty())
+        return mesh;
+      reason = "elements between different numbers of rows would be too distorted";
+    }
+    const ArchPlane plane = mesh_of_equal_rows(shape, grid, columns);
+    ArchMesh        result = extruded(shape, grid, plane);
+    if (!grid.equal_rows)
+      result.mesh.remark = "all columns have equal numbers of rows: " + reason;
+    return result;
   }
 
   std::vector<std::array<double, 2>> arch_valley(const ArchShape &shape, const ArchGrid &grid)
   {
     std::vector<std::array<double, 2>> valley;
-    for (const double s : columns(shape, grid).s)
+    for (const double s : places(shape, grid).s)
     {
       const Column column = Crest(shape).column(s, grid.smallest_height);
       const auto   base = column.node(column.base(0), 0);

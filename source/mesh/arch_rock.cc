@@ -16,9 +16,10 @@ namespace Voussoir
     class Builder
     {
     public:
-      Builder(const ArchShape &shape, const ArchGrid &dam, const ArchRockParameters &rock, HexMesh &mesh)
-          : dam(dam), rock(rock), mesh(mesh), bottom(shape.bottom()), valley(arch_valley(shape, dam)),
-            n_columns(valley.size() - 1), n_dam_layers(dam.elements_through), n(rock.n_layers)
+      Builder(const ArchShape &shape, const ArchGrid &dam, const ArchRockParameters &rock, ArchMesh &arch)
+          : rock(rock), base(arch.base), mesh(arch.mesh), bottom(shape.bottom()),
+            valley(arch_valley(shape, dam)), n_columns(valley.size() - 1), n_dam_layers(dam.elements_through),
+            n(rock.n_layers)
       {
       }
 
@@ -37,7 +38,7 @@ namespace Voussoir
     private:
       unsigned int dam_node(const unsigned int column, const unsigned int layer) const
       {
-        return column * (dam.elements_up + 1) * (n_dam_layers + 1) + layer;
+        return base[column] + layer;
       }
       const Vector3 &base_node(const unsigned int column, const unsigned int layer) const
       {
@@ -350,18 +351,20 @@ namespace Voussoir
 
       void release_end_walls()
       {
+        std::vector<bool> is_base_node(mesh.nodes.size(), false);
+        for (const unsigned int first : base)
+          std::fill_n(is_base_node.begin() + first, n_dam_layers + 1, true);
         const auto is_end_wall = [&](const HexMesh::Face &face)
         {
           return is_base(face.surface) &&
                  std::any_of(face.nodes.begin(), face.nodes.end(),
-                             [&](const unsigned int node)
-                             { return node / (n_dam_layers + 1) % (dam.elements_up + 1) != 0; });
+                             [&](const unsigned int node) { return !is_base_node[node]; });
         };
         mesh.faces.erase(std::remove_if(mesh.faces.begin(), mesh.faces.end(), is_end_wall), mesh.faces.end());
       }
 
-      const ArchGrid                    &dam;
       const ArchRockParameters          &rock;
+      const std::vector<unsigned int>   &base; ///< node at the upstream face of each column of the dam
       HexMesh                           &mesh;
       const double                       bottom; ///< z of the lowest arc [m]
       std::vector<std::array<double, 2>> valley; // (y, z) of each column of the dam
@@ -380,8 +383,8 @@ namespace Voussoir
   } // namespace
 
   void add_arch_rock(const ArchShape &shape, const ArchGrid &grid, const ArchRockParameters &rock,
-                     HexMesh &mesh)
+                     ArchMesh &arch)
   {
-    Builder(shape, grid, rock, mesh).build();
+    Builder(shape, grid, rock, arch).build();
   }
 } // namespace Voussoir

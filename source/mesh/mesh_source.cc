@@ -170,11 +170,11 @@ namespace Voussoir
       rock.check(parameters.section(), height);
       if (rock.enabled)
         check_ends(shape, grid, parameters.name());
-      HexMesh mesh = make_arch(shape, grid);
+      ArchMesh result = make_arch(shape, grid);
       if (rock.enabled)
-        add_arch_rock(shape, grid, rock, mesh);
-      check_mesh(mesh, parameters.name());
-      return mesh;
+        add_arch_rock(shape, grid, rock, result);
+      check_mesh(result.mesh, parameters.name());
+      return std::move(result.mesh);
     }
   } // namespace
 

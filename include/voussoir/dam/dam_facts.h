@@ -14,6 +14,7 @@ namespace Voussoir
     std::string              groups;            ///< table of the mesh groups: group_table()
     std::string              ungrouped;         ///< faces_without_group()
     std::vector<std::string> warnings;          ///< of the mesh, see mesh_warnings(), and of the reservoir
+    std::string              remark;            ///< HexMesh::remark
     std::size_t              n_cells = 0;       ///< number of concrete elements
     unsigned int             n_monoliths = 0;   ///< number of monoliths
     double                   volume = 0.;       ///< of the concrete [m^3]

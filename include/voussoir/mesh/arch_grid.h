@@ -16,12 +16,13 @@ namespace Voussoir
   /** Mesh of an arch dam: joints, numbers of elements, and the dam's lowest parts. */
   struct ArchGrid
   {
-    unsigned int        n_joints = 28; ///< contraction joints; the dam has n_joints + 1 monoliths
-    std::vector<double> joint_places;  ///< chainages [m], see make_arch(); empty: equal distances
-    unsigned int elements_along = 58;  ///< in total along the crest; each monolith has at least its share
-    unsigned int elements_up = 20;     ///< from the base to the crest
-    unsigned int elements_through = 2; ///< from the upstream to the downstream face
-    std::vector<double> rows;          ///< ends of the rows of elements, see make_arch(); empty: equal
+    unsigned int        n_joints = 28;     ///< contraction joints; the dam has n_joints + 1 monoliths
+    std::vector<double> joint_places;      ///< chainages [m], see make_arch(); empty: equal distances
+    unsigned int elements_along = 58;      ///< in total along the crest; each monolith has at least its share
+    unsigned int elements_up = 20;         ///< from the base to the crest, in the highest column
+    unsigned int elements_through = 2;     ///< from the upstream to the downstream face
+    std::vector<double> rows;              ///< ends of the rows of elements, see make_arch(); empty: equal
+    bool                equal_rows = true; ///< all columns have elements_up rows, see make_arch()
     double              end_wall_height = 0; ///< depth of the abutment below the two ends of the crest [m]
     bool                base_joint = false;  ///< the base is a joint
     unsigned int        lift_joints = 0;     ///< in each monolith, between rows of elements
@@ -41,6 +42,14 @@ namespace Voussoir
    * messages, as "Mesh/Arch210". */
   void check_grid(const ArchShape &shape, const ArchGrid &grid, const std::string &section);
 
+  /** Mesh of an arch dam. */
+  struct ArchMesh
+  {
+    HexMesh mesh; ///< its remark: why rows are equal though grid.equal_rows is false
+    std::vector<unsigned int>
+        base; ///< upstream base node of each column, followed by those of the other layers
+  };
+
   /** Returns a conforming mesh of an arch dam.
    *
    * Axes: x downstream, y to the left bank, z up. The monoliths 1 to n_joints + 1 are numbered from the right
@@ -49,14 +58,12 @@ namespace Voussoir
    *
    * The joints are vertical planes normal to the centre line of the crest. They divide the crest into equal
    * parts, or lie at the chainages grid.joint_places: lengths of the centre line from the right end of the crest.
-   * The other columns of nodes lie in such planes too. The rows of nodes have equal spacing from base to crest, or
-   * the ends grid.rows: shares of the height between 0 and 1.
-   * The node in column i along, row k up and layer l through the dam has the number
-   *
-   *     (i (elements_up + 1) + k) (elements_through + 1) + l.
+   * The other columns of nodes lie in such planes too. The rows of nodes are those of rows_from_crest(). With
+   * grid.equal_rows, lift joints, grid.rows or a scaled Jacobian below .1, all columns have elements_up rows, with equal
+   * spacing or the ends grid.rows: shares of the height between 0 and 1.
    *
    * Throws InputError if the valley does not open upwards, or if the faces of an arc meet. */
-  HexMesh make_arch(const ArchShape &shape, const ArchGrid &grid);
+  ArchMesh make_arch(const ArchShape &shape, const ArchGrid &grid);
 
   /** Returns the cross section of the valley: (y, z) of the lowest point of the dam's centre surface at each
    * column of nodes [m], from the right bank to the left. */

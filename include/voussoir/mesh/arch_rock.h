@@ -51,9 +51,9 @@ namespace Voussoir
    * @param shape dam
    * @param grid mesh of the dam
    * @param rock complete parameters
-   * @param mesh mesh of make_arch(shape, grid) */
+   * @param arch mesh of make_arch(shape, grid) */
   void add_arch_rock(const ArchShape &shape, const ArchGrid &grid, const ArchRockParameters &rock,
-                     HexMesh &mesh);
+                     ArchMesh &arch);
 } // namespace Voussoir
 
 #endif

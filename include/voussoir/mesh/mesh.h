@@ -55,7 +55,8 @@ namespace Voussoir
     std::vector<Face>                          faces;
     std::map<std::pair<int, int>, std::string> names;        ///< (dimension, physical id) -> physical name
     std::vector<std::string>                   zones = {""}; ///< names as by zone_name(); the first: no zone
-    std::shared_ptr<const HexMesh> water; ///< water volumes of the file, see split_water(); or null
+    std::shared_ptr<const HexMesh> water;  ///< water volumes of the file, see split_water(); or null
+    std::string                    remark; ///< of the generator of the mesh, for the log; or empty
   };
 
   /** Corners of the six faces of a hexahedron, counter-clockwise seen from outside. */
