@@ -188,6 +188,8 @@ namespace Voussoir
       log.line("Shaking   %.2f s in %u steps of %g s; memory of joint operators and factors %.2f GiB",
                state.grid().duration(), state.n_steps, state.motion.dt,
                std::accumulate(bytes.begin(), bytes.end(), 0.) / std::pow(2., 30));
+      if (const std::string steps = state.integrator->about_steps(); !steps.empty())
+        log.line("          %s", steps.c_str());
       log.line(
           "          newton: mean since the start; open, slip: pairs at this time; opening [mm], slip [mm], "
           "tension: largest since the start");

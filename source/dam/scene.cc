@@ -5,7 +5,7 @@
 #include <voussoir/base/units.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
-#include <voussoir/dynamics/impact.h>
+#include <voussoir/dynamics/integrator_table.h>
 #include <voussoir/foundation/foundation_names.h>
 
 #include <algorithm>
@@ -343,6 +343,13 @@ namespace Voussoir
         "Number of time steps per sampling interval of the ground motion [-]. The motion is linear between "
         "its samples. With rock the time step must be below the critical one, which --validate prints.",
         Patterns::Integer(1));
+    prm.add_parameter("Scheme", scheme, "Time integration. " + integrator_docs() + ".",
+                      Patterns::Selection(integrator_names()));
+    prm.add_parameter(
+        "Explicit step", explicit_step,
+        "Length of the steps of the scheme explicit [s]; they are shortened to divide a sample of the motion. "
+        "-1: 0.95 of the critical step.",
+        {-1., .01}, Patterns::Double(-1.));
     prm.add_parameter(
         "Impact", impact_rule,
         "Joint forces and velocities of closed joints. mean-force: the forces are means over "
@@ -490,6 +497,29 @@ namespace Voussoir
       throw InputError("\"Foundation/Coupling\" = partition with \"Foundation/Substeps\" above 1 was removed "
                        "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "
                        "\"Foundation/Substeps\" to 1.");
+    if (scheme == "explicit")
+    {
+      const auto refuse = [](const std::string &why) {
+        throw InputError("\"Dynamics/Scheme\" = explicit " + why +
+                         ", or \"Dynamics/Scheme\" to trapezoidal.");
+      };
+      if (foundation.model != "rigid")
+        refuse("requires a rigid base, not " + foundation.model + " rock. Set \"Foundation/Model\" to rigid");
+      if (reservoir.is_meshed())
+        refuse("has no " + reservoir.model +
+               " water. Set \"Reservoir/Model\" to an added mass, such as Westergaard");
+      if (steps_per_sample > 1)
+        refuse("has steps of its own in a sample. Set \"Dynamics/Steps per sample\" to 1");
+      if (explicit_step == 0.)
+        refuse("requires a step. Set \"Dynamics/Explicit step\" to -1");
+      if (impact_rule != "mean-force" || contact.write_problems)
+        refuse("has no rule of impact and no contact problems. Set \"Dynamics/Impact\" to mean-force and "
+               "\"Contact/Write problems\" to false");
+      if (damping.law().stiffness > 0. && motion.source != "none")
+        refuse(
+            "has no stiffness-proportional damping, which would require a step of about 0.02 ms. Set \"Damping/Model\" to "
+            "uniform, or \"Damping/Mass coefficient\" with \"Stiffness coefficient\" = 0");
+    }
     if (foundation.model == "rock" && foundation.is_subcycled() && impact_rule != "mean-force")
       throw InputError("Subcycled rock (\"Foundation/Substeps\" above 1, or \"Foundation/Coupling\" = mean "
                        "traction) requires \"Dynamics/Impact\" = mean-force, not " +

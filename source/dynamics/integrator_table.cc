@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
 #include <voussoir/base/internal_error.h>
 #include <voussoir/dynamics/integrator_table.h>
+#include <voussoir/dynamics/leapfrog.h>
 #include <voussoir/dynamics/newmark.h>
 
 #include <algorithm>
@@ -14,13 +16,40 @@ namespace Voussoir
       return std::make_unique<Newmark>(input.structure, input.laws, input.contact, input.dt, input.rule,
                                        input.support, input.single_factors);
     }
+
+    std::unique_ptr<Integrator> make_leapfrog(const IntegratorInput &input)
+    {
+      if (input.support)
+        throw InputError(
+            "\"Dynamics/Scheme\" = explicit requires a rigid base. Set \"Foundation/Model\" to rigid, or "
+            "\"Dynamics/Scheme\" to trapezoidal.");
+      return std::make_unique<Leapfrog>(input.structure, input.laws, input.dt, input.explicit_step);
+    }
   } // namespace
 
   const std::vector<IntegratorRow> &integrator_table()
   {
     static const std::vector<IntegratorRow> table = {
-        {"trapezoidal", "implicit trapezoidal rule, joints coupled in each step", make_newmark}};
+        {"trapezoidal", "implicit trapezoidal rule, joints coupled in each step", make_newmark},
+        {"explicit", "leapfrog rule with steps below the critical one, each pair of nodes solved alone",
+         make_leapfrog}};
     return table;
+  }
+
+  std::string integrator_names()
+  {
+    std::string names;
+    for (const IntegratorRow &row : integrator_table())
+      names += (names.empty() ? "" : "|") + std::string(row.name);
+    return names;
+  }
+
+  std::string integrator_docs()
+  {
+    std::string docs;
+    for (const IntegratorRow &row : integrator_table())
+      docs += (docs.empty() ? "" : "; ") + std::string(row.name) + ": " + row.doc;
+    return docs;
   }
 
   std::unique_ptr<Integrator> make_integrator(const std::string &name, const IntegratorInput &input)

@@ -28,9 +28,9 @@ namespace Voussoir
       for (Neighbour *neighbour : dam->neighbours)
         neighbour->start(motion, grid(), statics.u);
     Support *const support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
-    integrator = make_integrator("trapezoidal",
-                                 {dam->structure, dam->layout.laws, parameters, motion.dt,
-                                  impact_rule(scene().impact_rule), support, scene().has_single_factors()});
+    integrator = make_integrator(scene().scheme, {dam->structure, dam->layout.laws, parameters, motion.dt,
+                                                  impact_rule(scene().impact_rule), support,
+                                                  scene().has_single_factors(), scene().explicit_step});
     Unknowns load = statics.constant_load();
     if (n_steps > 0)
       add_inertia(*dam, motion.acceleration[0], load);

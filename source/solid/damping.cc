@@ -208,6 +208,43 @@ namespace Voussoir
     return sum_of_ranges<std::array<double, 1>>(u.size(), advance_values)[0];
   }
 
+  Damping::Energies Damping::advance_leapfrog(const double dt, const Unknowns &u_old, const Unknowns &Ku_old,
+                                              const Unknowns &u, const Unknowns &Ku,
+                                              DampingMemory &memory) const
+  {
+    if (!relaxes())
+      return {0., 0.};
+    const auto advance_values = [&](const std::size_t begin, const std::size_t end)
+    {
+      double stored = 0., dissipated = 0.;
+      for (std::size_t k = begin; k < end; ++k)
+      {
+        memory.mean[k] = (modulus - 1.) * (.5 * (u_old[k] + u[k]) - memory.u_static[k]);
+        stored -= .5 * (1. - modulus) * (u_old[k] - memory.u_static[k]) * (Ku[k] - memory.Ku_static[k]);
+      }
+      for (std::size_t l = 0; l < c.size(); ++l)
+      {
+        const double r = dt / tau[l], kept = std::exp(-r), added = -std::expm1(-r) / r,
+                     share = modulus * c[l];
+        for (std::size_t k = begin; k < end; ++k)
+        {
+          const double d_old = memory.d[l][k], Kd_old = memory.Kd[l][k];
+          const double d = kept * d_old + added * (u[k] - u_old[k]),
+                       Kd = kept * Kd_old + added * (Ku[k] - Ku_old[k]);
+          const double lost = .5 * share * r * d * (Kd + Kd_old);
+          dissipated += lost;
+          stored += .5 * share / added * d_old * Kd - lost;
+          memory.mean[k] += .5 * share * (d_old + d);
+          memory.d[l][k] = d;
+          memory.Kd[l][k] = Kd;
+        }
+      }
+      return std::array<double, 2>{{stored, dissipated}};
+    };
+    const auto sums = sum_of_ranges<std::array<double, 2>>(u.size(), advance_values);
+    return {sums[0], sums[1]};
+  }
+
   double Damping::more_energy(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku) const
   {
     if (!relaxes())

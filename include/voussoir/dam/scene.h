@@ -136,6 +136,8 @@ namespace Voussoir
     std::string          name;                       ///< of the file, without directory and .prm
     std::string          directory;                  ///< of the file; paths in the file are relative to it
     std::string          impact_rule = "mean-force"; ///< "Dynamics/Impact"
+    std::string          scheme = "trapezoidal";     ///< time scheme of integrator_table()
+    double               explicit_step = -1.;        ///< [s]; -1: from the critical step
     std::string          factors = "single";         ///< precision of the matrix factors of time steps
     MeshParameters       mesh;
     ElementParameters    elements;

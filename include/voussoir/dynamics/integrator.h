@@ -78,6 +78,8 @@ namespace Voussoir
 
     virtual SystemTimes times() const = 0; ///< times of all steps of this object
 
+    virtual std::string about_steps() const { return ""; } ///< steps inside of a time step, or empty
+
     virtual double memory() const = 0; ///< memory consumption of factors and operators [bytes]
 
   protected:

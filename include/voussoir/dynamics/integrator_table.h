@@ -18,6 +18,7 @@ namespace Voussoir
     ImpactRule        rule = ImpactRule::mean_force; ///< velocity correction of closed pairs
     Support          *support = nullptr;             ///< subcycled or massless foundation, or nullptr
     bool              single_factors = false;        ///< factors in single precision
+    double            explicit_step = -1.; ///< of the explicit scheme [s]; -1: from the critical one
   };
 
   /** A time scheme that an input file can choose. */
@@ -30,6 +31,8 @@ namespace Voussoir
 
   /** Returns all time schemes. */
   const std::vector<IntegratorRow> &integrator_table();
+  std::string                       integrator_names(); ///< separated by |
+  std::string                       integrator_docs();  ///< names and docs, separated by semicolons
 
   /** Makes the integrator of the scheme @p name. Errors: those of its constructor. */
   std::unique_ptr<Integrator> make_integrator(const std::string &name, const IntegratorInput &input);

@@ -87,6 +87,17 @@ namespace Voussoir
     double advance(double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
                    const Unknowns &Ku, DampingMemory &memory) const;
 
+    struct Energies ///< [J]
+    {
+      double stored, dissipated;
+    };
+
+    /** Advances the memory by a step of the leapfrog rule, exactly for a constant velocity. Returns the energy that the
+     * body stores in the middle of the step, minus u_old K u / 2, and what it dissipates in the step. The rule needs the
+     * factor sqrt(modulus (1 + sum c)) for its critical step. */
+    Energies advance_leapfrog(double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
+                              const Unknowns &Ku, DampingMemory &memory) const;
+
     /** Returns the energy stored by the relaxing body minus u K u / 2 [J], zero in the static state. */
     double more_energy(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku) const;
 

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_leapfrog_h
+#define voussoir_leapfrog_h
+
+#include <voussoir/dynamics/integrator.h>
+#include <voussoir/dynamics/pair_clusters.h>
+
+namespace Voussoir
+{
+  /** Explicit time integration of a structure with joints by the leapfrog rule, with joint forces that satisfy the joint
+   * laws at the end of each step (Carpenter, Taylor, Katona 1991, Int. J. Numer. Methods Eng. 32, 103-128):
+   *
+   *     v(k + 1/2) = v(k - 1/2) + h M^-1 (F(k) - K w(k) + G^T f(k)),   u(k + 1) = u(k) + h v(k + 1/2).
+   *
+   * The mass matrix is lumped, so each pair, or cluster of pairs that share nodes, is solved alone. w: displacement with
+   * the memory of the damping (Damping). advance() divides a time step into equal steps h below the critical one, with
+   * a load that is linear between. DynamicState::v is the velocity at the middle of the last step h, and the kinetic and
+   * strain energies are those of this time: v M v / 2 and u(k) K u(k + 1) / 2, whose balance is exact. */
+  class Leapfrog : public Integrator
+  {
+  public:
+    /** Computes the critical step. start() or resume() must follow.
+     * @param structure masses, stiffness matrices, damping without a stiffness term, and pairs
+     * @param laws joint laws of the pairs
+     * @param dt time step of advance() [s]
+     * @param step wanted length of the steps h [s]; -1: 0.95 of the critical one. It is shortened to divide dt.
+     *
+     * Throws InputError if @p step is above the critical step, and for what the scheme has not: a stiffness term of the
+     * damping, dashpots, reactions of water, and several processes. */
+    Leapfrog(const Structure &structure, const JointLaws &laws, double dt, double step);
+
+    ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}}) override;
+    const std::vector<PairState> &pair_states() const override { return states; }
+    SystemTimes                   times() const override { return spent; }
+    double                        memory() const override;
+    std::string                   about_steps() const override;
+
+  private:
+    struct Work ///< works of one step h [J]
+    {
+      double input = 0., damping = 0., opening = 0., friction = 0.;
+    };
+    void    predict(double share, const Unknowns &load);
+    void    solve_joints(bool is_last, ContactResult &result);
+    Vector3 solve_pair(std::size_t p, const Matrix3 &H, const Vector3 &b, PairHistory &history);
+    void    add_work_of_joints(Work &work) const;
+    void    move(double share, const Unknowns &load, Work &work);
+
+    const double             dt;
+    double                   critical = 0., h = 0.; ///< [s]
+    unsigned int             n_steps = 0;           ///< steps h in dt
+    const PairClusters       clusters;
+    std::vector<PairState>   states;
+    SystemTimes              spent;
+    Unknowns                 next;                       ///< velocity at the end of the step h [m/s]
+    Unknowns                 pair_force;                 ///< joint forces of the step h [N]
+    Unknowns                 gap_before, gap, gap_after; ///< of the steps k - 1, k and k + 1 [m]
+    std::vector<std::size_t> memory_begin;               ///< of each pair
+  };
+} // namespace Voussoir
+
+#endif

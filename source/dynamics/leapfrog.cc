@@ -1,0 +1,350 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/base/internal_error.h>
+#include <voussoir/base/log.h>
+#include <voussoir/base/number_text.h>
+#include <voussoir/base/parallel.h>
+#include <voussoir/base/ranks.h>
+#include <voussoir/dynamics/leapfrog.h>
+#include <voussoir/solid/critical_step.h>
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    constexpr double       share_of_critical = .95;
+    constexpr unsigned int most_sweeps = 2000, most_events = 8;
+    constexpr double       enough = 1e-9; ///< relative change of the forces of a cluster
+
+    Matrix3 scaled(const Matrix3 &a, const double factor)
+    {
+      Matrix3 result = a;
+      for (double &x : result)
+        x *= factor;
+      return result;
+    }
+
+    Vector3 sum_of(Vector3 a, const Vector3 &b)
+    {
+      add(a, b);
+      return a;
+    }
+
+    void check(const Structure &structure)
+    {
+      if (structure.damping.stiffness > 0.)
+        throw InputError(
+            "\"Dynamics/Scheme\" = explicit has no stiffness-proportional damping, which would require a step "
+            "of about 0.02 ms. Set \"Damping/Model\" to uniform, or \"Damping/Stiffness coefficient\" to 0 "
+            "(and \"Mass coefficient\").");
+      if (Ranks::size() > 1)
+        throw InputError(
+            "\"Dynamics/Scheme\" = explicit runs in one process. Use threads (OMP_NUM_THREADS).");
+      ensure(structure.dashpots.empty(), "The leapfrog rule has no dashpots.");
+    }
+  } // namespace
+
+  Leapfrog::Leapfrog(const Structure &structure, const JointLaws &laws, const double dt, const double step)
+      : Integrator(structure, laws), dt(dt), clusters(structure),
+        states(structure.pairs.size(), PairState::open)
+  {
+    check(structure);
+    std::vector<double> mass; // without the added mass: the frequency is an upper bound
+    for (std::size_t i = 0; i < structure.n_nodes(); ++i)
+    {
+      const Matrix3 &m = structure.mass[i];
+      const double   added =
+          structure.added_mass.empty()
+                ? 0.
+                : structure.added_mass[i][0] + structure.added_mass[i][4] + structure.added_mass[i][8];
+      mass.push_back((m[0] + m[4] + m[8] - added) / 3.);
+    }
+    const auto multiply = [&](const double *x, double *y)
+    {
+      Unknowns Ku;
+      structure.multiply_stiffness(Unknowns(x, x + 3 * mass.size()), Ku);
+      std::copy(Ku.begin(), Ku.end(), y);
+    };
+    double stiffest = structure.damping.modulus;
+    for (const double c : structure.damping.c)
+      stiffest += structure.damping.modulus * c;
+    critical = 2. / (largest_frequency(std::function<void(const double *, double *)>(multiply), mass) *
+                     std::sqrt(stiffest));
+    if (step > critical)
+      throw InputError("Entry \"Dynamics/Explicit step\" = " + number_text(step) +
+                       " s is above the critical step of the dam, " + number_text(critical) +
+                       " s. Set it to at most " + number_text(share_of_critical * critical) + ", or to -1.");
+    n_steps = std::ceil(dt / (step > 0. ? step : share_of_critical * critical) - 1e-9);
+    h = dt / n_steps;
+    std::size_t at = 0;
+    for (const JointLaw *law : laws.of_pair)
+    {
+      memory_begin.push_back(at);
+      at += law->n_memory();
+    }
+  }
+
+  std::string Leapfrog::about_steps() const
+  {
+    return "explicit, " + std::to_string(n_steps) + " steps of " + number_text(1e3 * h) +
+           " ms in a sample (critical step " + number_text(1e3 * critical) + " ms)";
+  }
+
+  double Leapfrog::memory() const
+  {
+    double values = 14. * now.u.size(); // vectors of the state
+    for (const Body &body : structure.bodies)
+      values += 10. * body.stiffness.value.size();
+    return values * sizeof(double);
+  }
+
+  ContactResult Leapfrog::advance(const Unknowns &load, const Vector3 &)
+  {
+    ContactResult result;
+    result.converged = true;
+    if (gap.empty()) // the first step of this object
+    {
+      Unknowns before = now.u;
+      for (std::size_t k = 0; k < before.size(); ++k)
+        before[k] -= h * now.v[k];
+      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      {
+        const Vector3 jump = structure.jump(structure.pairs[p], before), at = opening_and_slip(p);
+        gap.insert(gap.end(), at.begin(), at.end());
+        for (unsigned int c = 0; c < 3; ++c)
+          gap_before.push_back(jump[c] - reference[3 * p + c]);
+      }
+      gap_after = pair_force = gap;
+    }
+    impulse.assign(3 * structure.pairs.size(), 0.);
+    const double end = now.time + dt;
+    for (unsigned int k = 0; k < n_steps; ++k)
+    {
+      Work work;
+      predict(double(k) / n_steps, load);
+      Stopwatch joints;
+      solve_joints(k + 1 == n_steps, result);
+      spent.joints += joints.seconds();
+      add_work_of_joints(work);
+      move(double(k) / n_steps, load, work);
+      if (!std::isfinite(work.input))
+        throw ComputationError(
+            "The displacements or the loads are not finite at t = " + number_text(now.time) +
+            " s. Check the units of materials, loads and ground motion (\"Motion/Unit\").");
+      now.energy.input += work.input;
+      now.energy.damping += work.damping;
+      now.energy.friction += work.friction;
+      now.energy.impact += work.opening;
+    }
+    now.load = load;
+    now.time = end;
+    for (std::size_t k = 0; k < impulse.size(); ++k)
+      now.force[k] = impulse[k] / dt;
+    const JointEnergy joints = joint_energy();
+    now.energy.impact -=
+        joints.stored - now.energy.joint_stored + joints.fracture - now.energy.joint_fracture;
+    now.energy.joint_stored = joints.stored;
+    now.energy.joint_fracture = joints.fracture;
+    update_largest();
+    return result;
+  }
+
+  /** Computes the velocity at the end of a step without joint forces, at a @p share of the way between both loads. */
+  void Leapfrog::predict(const double share, const Unknowns &load)
+  {
+    const double a = .5 * h * structure.damping.mass, keep = (1. - a) / (1. + a), gain = h / (1. + a);
+    next.resize(now.u.size());
+#pragma omp parallel for schedule(static)
+    for (int i = 0; i < static_cast<int>(structure.n_nodes()); ++i)
+    {
+      Vector3 f;
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const std::size_t k = 3 * i + c;
+        f[c] = (1. - share) * now.load[k] + share * load[k] - now.Ku[k] -
+               structure.damping.more_force(now.relaxation, now.Ku[k], k);
+      }
+      const Vector3 a_i = clusters.inverse_masses()[i] * f;
+      for (unsigned int c = 0; c < 3; ++c)
+        next[3 * i + c] = keep * now.v[3 * i + c] + gain * a_i[c];
+    }
+  }
+
+  Vector3 Leapfrog::solve_pair(const std::size_t p, const Matrix3 &H, const Vector3 &b, PairHistory &history)
+  {
+    const JointLaw &law = *laws.of_pair[p];
+    Vector3         f{};
+    for (unsigned int event = 0; event < most_events; ++event)
+    {
+      f = law.solve(H, b, history);
+      if (law.n_memory() == 0 || law.utilisation(f, sum_of(H * f, b), history) <= 1.)
+        break;
+      law.apply_event(now.memory.data() + memory_begin[p], JointEvent::limit);
+    }
+    return f;
+  }
+
+  /** Solves the joint laws of all pairs, adds their impulses to #next, and commits the history variables. */
+  void Leapfrog::solve_joints(const bool is_last, ContactResult &result)
+  {
+    const double gain = h / (1. + .5 * h * structure.damping.mass);
+    const auto   predicted = [&](const std::size_t p)
+    {
+      const Vector3 rate = structure.jump(structure.pairs[p], next);
+      Vector3       b = get(gap, p);
+      for (unsigned int c = 0; c < 3; ++c)
+        b[c] += h * rate[c];
+      return b;
+    };
+    const auto history_of = [&](const std::size_t p)
+    {
+      PairHistory history(get(gap, p));
+      history.area = structure.pairs[p].area;
+      history.is_mean = true;
+      history.memory = now.memory.data() + memory_begin[p];
+      return history;
+    };
+    const auto finish = [&](const std::size_t p, const Vector3 &f)
+    {
+      set(pair_force, p, f);
+      clusters.add_impulse(structure.pairs[p], {{gain * f[0], gain * f[1], gain * f[2]}}, next);
+      for (unsigned int c = 0; c < 3; ++c)
+        impulse[3 * p + c] += h * f[c];
+    };
+    for_each_in_chunks(clusters.single.size(),
+                       [&](const std::size_t i)
+                       {
+                         const unsigned int p = clusters.single[i];
+                         PairHistory        history = history_of(p);
+                         finish(p,
+                                solve_pair(p, scaled(clusters.of_pair(p), gain * h), predicted(p), history));
+                       });
+    for (const auto &cluster : clusters.clusters)
+    {
+      const std::size_t        n = cluster.pairs.size();
+      std::vector<Vector3>     b, f;
+      std::vector<PairHistory> history;
+      for (const unsigned int p : cluster.pairs)
+      {
+        b.push_back(predicted(p));
+        f.push_back(get(pair_force, p));
+        history.push_back(history_of(p));
+      }
+      unsigned int sweep = 0;
+      for (double change = 1., size = 0.; sweep < most_sweeps && change > enough * size; ++sweep)
+      {
+        change = size = 0.;
+        for (std::size_t i = 0; i < n; ++i)
+        {
+          Vector3 y = b[i];
+          for (std::size_t j = 0; j < n; ++j)
+            if (j != i)
+              add(y, scaled(cluster.between(i, j), gain * h) * f[j]);
+          const Vector3 fresh =
+              solve_pair(cluster.pairs[i], scaled(cluster.between(i, i), gain * h), y, history[i]);
+          change = std::max(change, norm(fresh - f[i]));
+          size = std::max(size, norm(fresh));
+          f[i] = fresh;
+        }
+      }
+      if (sweep == most_sweeps)
+        throw ComputationError(
+            "The joint forces where joints cross did not converge at t = " + number_text(now.time) +
+            " s. Reduce \"Dynamics/Explicit step\", or set \"Dynamics/Scheme\" to trapezoidal.");
+      result.sweeps = std::max(result.sweeps, sweep);
+      for (std::size_t i = 0; i < n; ++i)
+        finish(cluster.pairs[i], f[i]);
+    }
+    const auto commit = [&](const std::size_t p)
+    {
+      const JointLaw &law = *laws.of_pair[p];
+      const Vector3   at = predicted(p), f = get(pair_force, p); // the gap at the end
+      set(gap_after, p, at);
+      const PairHistory history = history_of(p);
+      if (is_last)
+      {
+        PairEquations equations;
+        law.evaluate(f, at, history, 1. / (gain * h * clusters.of_pair(p)[0]), equations);
+        states[p] = equations.state;
+      }
+      if (law.n_memory() > 0)
+        law.commit(f, at, history, now.memory.data() + memory_begin[p]);
+    };
+    for_each_in_chunks(structure.pairs.size(), commit);
+  }
+
+  void Leapfrog::add_work_of_joints(Work &work) const
+  {
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      for (unsigned int c = 0; c < 3; ++c)
+        (c == 0 ? work.opening : work.friction) -=
+            pair_force[3 * p + c] * .5 * (gap_after[3 * p + c] - gap_before[3 * p + c]);
+  }
+
+  /** Moves the state to the end of the step. All works are those of the forces in the middle of two steps, along (u(k + 1) -
+   * u(k - 1)) / 2. */
+  void Leapfrog::move(const double share, const Unknowns &load, Work &work)
+  {
+    const double alpha = structure.damping.mass;
+    const auto   move_nodes = [&](const std::size_t begin, const std::size_t end)
+    {
+      double input = 0., damping = 0.;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        Vector3 mean; // velocity
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          const std::size_t k = 3 * i + c;
+          mean[c] = .5 * (now.v[k] + next[k]);
+          const double force =
+              (1. - share) * now.load[k] + share * load[k] - (elastic_force.empty() ? 0. : elastic_force[k]);
+          input += h * force * mean[c];
+        }
+        if (alpha > 0.)
+          damping += alpha * h * dot(mean, structure.mass[i] * mean);
+      }
+      return std::array<double, 2>{{input, damping}};
+    };
+    const auto works = sum_of_ranges<std::array<double, 2>>(structure.n_nodes(), move_nodes);
+    Unknowns   u = now.u, Ku;
+#pragma omp parallel for schedule(static)
+    for (int k = 0; k < static_cast<int>(u.size()); ++k)
+      u[k] += h * next[k];
+    Stopwatch clock;
+    structure.multiply_stiffness(u, Ku);
+    spent.substitutions += clock.seconds();
+    const Damping::Energies relaxed =
+        structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation);
+    work.input += works[0];
+    work.damping += works[1] + relaxed.dissipated;
+    const auto energy = [&](const std::size_t begin, const std::size_t end)
+    {
+      double kinetic = 0., water = 0., strain = 0.;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Vector3 v = get(next, i), before = get(now.u, i);
+        kinetic += .5 * dot(v, structure.mass[i] * v);
+        if (!structure.added_mass.empty())
+          water += .5 * dot(v, structure.added_mass[i] * v);
+        strain += .5 * dot(before, get(Ku, i));
+        for (unsigned int c = 0; c < 3 && !elastic_force.empty(); ++c)
+          strain -= .5 * elastic_force[3 * i + c] * (before[c] + u[3 * i + c]);
+      }
+      return std::array<double, 3>{{kinetic, water, strain}};
+    };
+    const auto energies = sum_of_ranges<std::array<double, 3>>(structure.n_nodes(), energy);
+    now.energy.kinetic = energies[0] - energies[1];
+    now.energy.added_mass = energies[1];
+    now.energy.strain = energies[2] + elastic_energy + relaxed.stored;
+    now.u.swap(u);
+    now.Ku.swap(Ku);
+    now.v.swap(next);
+    gap_before.swap(gap);
+    gap.swap(gap_after);
+    now.time += h;
+  }
+} // namespace Voussoir
