@@ -130,7 +130,7 @@ namespace Voussoir
       solve_joints(k + 1 == n_steps, result);
       spent.joints += joints.seconds();
       add_work_of_joints(work);
-      move(double(k) / n_steps, load, work);
+      move(double(k) / n_steps, load, k + 1 == n_steps, work);
       if (!std::isfinite(work.input))
         throw ComputationError(
             "The displacements or the loads are not finite at t = " + number_text(now.time) +
@@ -285,9 +285,33 @@ namespace Voussoir
             pair_force[3 * p + c] * .5 * (gap_after[3 * p + c] - gap_before[3 * p + c]);
   }
 
+  /** Sets the kinetic and the strain energies of the middle of a step to @p u. @p relaxed: see Damping::Energies. */
+  void Leapfrog::account(const Unknowns &u, const Unknowns &Ku, const double relaxed)
+  {
+    const auto energy = [&](const std::size_t begin, const std::size_t end)
+    {
+      double kinetic = 0., water = 0., strain = 0.;
+      for (std::size_t i = begin; i < end; ++i)
+      {
+        const Vector3 v = get(next, i), before = get(now.u, i);
+        kinetic += .5 * dot(v, structure.mass[i] * v);
+        if (!structure.added_mass.empty())
+          water += .5 * dot(v, structure.added_mass[i] * v);
+        strain += .5 * dot(before, get(Ku, i));
+        for (unsigned int c = 0; c < 3 && !elastic_force.empty(); ++c)
+          strain -= .5 * elastic_force[3 * i + c] * (before[c] + u[3 * i + c]);
+      }
+      return std::array<double, 3>{{kinetic, water, strain}};
+    };
+    const auto energies = sum_of_ranges<std::array<double, 3>>(structure.n_nodes(), energy);
+    now.energy.kinetic = energies[0] - energies[1];
+    now.energy.added_mass = energies[1];
+    now.energy.strain = energies[2] + elastic_energy + relaxed;
+  }
+
   /** Moves the state to the end of the step. All works are those of the forces in the middle of two steps, along (u(k + 1) -
    * u(k - 1)) / 2. */
-  void Leapfrog::move(const double share, const Unknowns &load, Work &work)
+  void Leapfrog::move(const double share, const Unknowns &load, const bool is_last, Work &work)
   {
     const double alpha = structure.damping.mass;
     const auto   move_nodes = [&](const std::size_t begin, const std::size_t end)
@@ -321,25 +345,8 @@ namespace Voussoir
         structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation);
     work.input += works[0];
     work.damping += works[1] + relaxed.dissipated;
-    const auto energy = [&](const std::size_t begin, const std::size_t end)
-    {
-      double kinetic = 0., water = 0., strain = 0.;
-      for (std::size_t i = begin; i < end; ++i)
-      {
-        const Vector3 v = get(next, i), before = get(now.u, i);
-        kinetic += .5 * dot(v, structure.mass[i] * v);
-        if (!structure.added_mass.empty())
-          water += .5 * dot(v, structure.added_mass[i] * v);
-        strain += .5 * dot(before, get(Ku, i));
-        for (unsigned int c = 0; c < 3 && !elastic_force.empty(); ++c)
-          strain -= .5 * elastic_force[3 * i + c] * (before[c] + u[3 * i + c]);
-      }
-      return std::array<double, 3>{{kinetic, water, strain}};
-    };
-    const auto energies = sum_of_ranges<std::array<double, 3>>(structure.n_nodes(), energy);
-    now.energy.kinetic = energies[0] - energies[1];
-    now.energy.added_mass = energies[1];
-    now.energy.strain = energies[2] + elastic_energy + relaxed.stored;
+    if (is_last)
+      account(u, Ku, relaxed.stored);
     now.u.swap(u);
     now.Ku.swap(Ku);
     now.v.swap(next);
