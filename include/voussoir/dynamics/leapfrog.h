@@ -44,7 +44,8 @@ namespace Voussoir
     void    solve_joints(bool is_last, ContactResult &result);
     Vector3 solve_pair(std::size_t p, const Matrix3 &H, const Vector3 &b, PairHistory &history);
     void    add_work_of_joints(Work &work) const;
-    void    move(double share, const Unknowns &load, Work &work);
+    void    move(double share, const Unknowns &load, bool is_last, Work &work);
+    void    account(const Unknowns &u, const Unknowns &Ku, double relaxed);
 
     const double             dt;
     double                   critical = 0., h = 0.; ///< [s]
