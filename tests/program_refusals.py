@@ -105,6 +105,36 @@ def choices():
         ("Joints/Equations=fischer-burmeister", ("Joints/Equations", "fischer-burmeister", "alart-curnier"))))
 
 
+def damping():
+    """Damping that cannot be fitted, or does not fit the foundation."""
+    write_scene()
+    refuse(["scene.prm", "--validate"], (
+        ("Damping/Mass coefficient=1", ("together",)),
+        ("Damping/Model=uniform", "Damping/Band end=0.4", ("Band begin", "0.4")),
+        ("Damping/Model=uniform", "Damping/Ratio=0.5", ("Damping/Ratio", "0.25")),
+        ("Damping/Model=uniform", "Damping/Reference frequency=-2", ("Reference frequency",)),
+        ("Damping/Model=uniform", "Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60",
+         "Dynamics/Impact=paper", ("mean-force",))))
+
+
+def explicit():
+    """What the explicit scheme does not have, and steps above the critical one."""
+    write_scene()
+    rock = ("Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60")
+    scheme = ["scene.prm", *settings("Dynamics/Scheme=explicit", "Motion/Duration=0.1", "Output/Figures=false")]
+    uniform = [*scheme, *settings("Damping/Model=uniform")]
+    refuse([*scheme, "--validate"], (("Damping/Model=Rayleigh", ("stiffness-proportional", "uniform")),))
+    refuse([*uniform, "--validate"], (
+        ("Foundation/Model=massless", *rock, ("rigid base", "massless")), ("Foundation/Model=rock", *rock, ("rigid base",)),
+        ("Reservoir/Model=acoustic", ("acoustic water",)),
+        ("Dynamics/Impact=paper", ("rule of impact",)), ("Dynamics/Explicit step=0", ("Explicit step",))))
+    text = runs(*uniform, "--output", "limit")
+    critical = float(re.search(r"critical step (\S+) ms", text)[1]) * 1e-3
+    refuse([*uniform, "--output", "above"], ((f"Dynamics/Explicit step={1.001 * critical}", ("above the critical step", "Explicit step")),))
+    expect(f"steps of {1e3 * .01 / 20:.3g} ms" in runs(*uniform, "--output", "below", *settings("Dynamics/Explicit step=0.0005"))
+           or critical < .0005, "the step that was asked for")
+
+
 def intervals():
     """Intervals of outputs: samples of the motion (10 ms), or times with a unit that are multiples of them."""
     write_scene()
@@ -198,4 +228,4 @@ def spectrum():
 
 
 if __name__ == "__main__":
-    run_cases(base, lift, gaps, cohesive, choices, intervals, own_steps, zones, plane_strain, spectrum)
+    run_cases(base, lift, gaps, cohesive, choices, damping, explicit, intervals, own_steps, zones, plane_strain, spectrum)

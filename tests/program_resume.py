@@ -19,6 +19,7 @@ from program_ranks import launcher, on_ranks
 from run_program import expect, refused, run_cases, runs, same_to_the_bit, settings, stopped, summary, write_scene
 
 KILLED, ASKED = signal.SIGKILL, signal.SIGTERM  # with the checkpoint of the interval, or with one of the last step
+EXPLICIT = settings("Dynamics/Scheme=explicit", "Damping/Model=uniform")
 ROCK = settings("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60", "Motion/Time step=0.002")
 
 
@@ -85,6 +86,9 @@ CASES = {
     "gaps": [([*GAPS, *asked(10, "Mesh/Arch210/Elements through=2")], ASKED, None)],
     "blocks": [(every(20, "Motion/Duration=0.4", "Limits/Base friction=1"), KILLED, None),
                ([*every(20, "Motion/Duration=0.4", "Limits/Base friction=1"), *ROCK], KILLED, None)],
+    "damping": [(every(20, "Damping/Model=uniform", f"Joints/Model={law}", "Motion/Duration=1"), KILLED, two_ranks) for law in ("FJA", "KSM")],
+    "explicit": [([*EXPLICIT, *asked(20, f"Joints/Model={law}", "Motion/Duration=1.5")], ASKED, two_threads) for law in ("FJA", "KSM", "cohesive")]
+    + [([*EXPLICIT, *program_base.ARCH, *LIFTS, *asked(20, "Motion/Duration=0.6")], ASKED, two_threads)],
     "wedges": [(lambda: wedges("rigid"), KILLED, two_ranks), (lambda: wedges("rock"), KILLED, two_ranks)],
 }
 

@@ -347,7 +347,7 @@ namespace Voussoir
                       Patterns::Selection(integrator_names()));
     prm.add_parameter(
         "Explicit step", explicit_step,
-        "Length of the steps of the scheme explicit [s]; they are shortened to divide a sample of the motion. "
+        "Length of the steps of the scheme explicit [s]; they are shortened to divide a time step, at whose end results are recorded. "
         "-1: 0.95 of the critical step.",
         {-1., .01}, Patterns::Double(-1.));
     prm.add_parameter(
@@ -508,8 +508,6 @@ namespace Voussoir
       if (reservoir.is_meshed())
         refuse("has no " + reservoir.model +
                " water. Set \"Reservoir/Model\" to an added mass, such as Westergaard");
-      if (steps_per_sample > 1)
-        refuse("has steps of its own in a sample. Set \"Dynamics/Steps per sample\" to 1");
       if (explicit_step == 0.)
         refuse("requires a step. Set \"Dynamics/Explicit step\" to -1");
       if (impact_rule != "mean-force" || contact.write_problems)

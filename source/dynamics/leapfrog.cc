@@ -91,7 +91,7 @@ namespace Voussoir
   std::string Leapfrog::about_steps() const
   {
     return "explicit, " + std::to_string(n_steps) + " steps of " + number_text(1e3 * h) +
-           " ms in a sample (critical step " + number_text(1e3 * critical) + " ms)";
+           " ms in a time step (critical step " + number_text(1e3 * critical) + " ms)";
   }
 
   double Leapfrog::memory() const
@@ -106,19 +106,15 @@ namespace Voussoir
   {
     ContactResult result;
     result.converged = true;
-    if (gap.empty()) // the first step of this object
+    pair_force = gap_after = gap_before = gap =
+        now.force; // anew in each step, so that a resumed run has the same bits
+    Unknowns before = now.u;
+    for (std::size_t k = 0; k < before.size(); ++k)
+      before[k] -= h * now.v[k];
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
     {
-      Unknowns before = now.u;
-      for (std::size_t k = 0; k < before.size(); ++k)
-        before[k] -= h * now.v[k];
-      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-      {
-        const Vector3 jump = structure.jump(structure.pairs[p], before), at = opening_and_slip(p);
-        gap.insert(gap.end(), at.begin(), at.end());
-        for (unsigned int c = 0; c < 3; ++c)
-          gap_before.push_back(jump[c] - reference[3 * p + c]);
-      }
-      gap_after = pair_force = gap;
+      set(gap, p, opening_and_slip(p));
+      set(gap_before, p, structure.jump(structure.pairs[p], before) - get(reference, p));
     }
     impulse.assign(3 * structure.pairs.size(), 0.);
     const double end = now.time + dt;
