@@ -477,12 +477,12 @@ namespace
             if (k.direction == "both" || (k.direction == "radial") == (d == 1))
               g[d] = other % 3 == 0 ? std::copysign(play, g[d]) : std::max(-play, std::min(play, g[d]));
           }
-          worst = std::max(worst, -dot(f, g - gap) / (norm(f) * norm(g - gap) + 1e-300));
+          worst = std::max(worst, -dot(f, g - gap) / (norm(f) * (norm(g) + norm(gap)) + 1e-300));
         }
       }
     }
     below("frictionless keys: penetration of any surface", outside, 1e-12);
-    below("frictionless keys: force against an admissible motion", worst, 1e-12);
+    below("frictionless keys: force against an admissible motion", worst, 1e-13);
   }
 
   /** Play, dilation, keys out of their seats, keys on their crests. */
