@@ -12,7 +12,7 @@ of build/.
 by the seed, except those of headers, and builds only their targets: the rest comes from ccache after scripts/build.sh.
 
 --invent makes N new mutants by the seed: each changes a random line of source/ by one of OPERATORS (another arithmetic operator or comparison,
-&& and ||, == and !=, another number, or one statement less). One that does not compile is replaced by the next. Each is built by itself, and
+&& and ||, == and !=, another number, or one statement less). One that does not compile without a warning is replaced by the next. Each is built by itself, and
 meets the tests that the lists name for its source or, without one, for its directory. Survivors need a reader: a change of speed, of a
 message or of a value that is never used is no error of the tests.
 

@@ -61,9 +61,8 @@ namespace
                       make_joint_law(name, mu, equations_from_name(equations)), 1., mu});
     };
     put("tied", "alart-curnier", .7);
-    for (const std::string equations : {"alart-curnier", "fischer-burmeister"})
-      put("FJB", equations, .7);
-    for (const std::string equations : {"alart-curnier", "paper", "fischer-burmeister"})
+    put("FJB", "alart-curnier", .7);
+    for (const std::string equations : {"alart-curnier", "paper"})
       for (const double mu : {0., .3, .7, 2.})
         put("FJA", equations, mu);
     for (const double mu : {0., .8})
@@ -257,8 +256,7 @@ namespace
           worst_error = std::max(worst_error, error);
         }
       }
-      below("one pair alone, " + l.name + ": equations", worst_equations,
-            l.name.find("fischer") == std::string::npos ? 1e-11 : 1e-7); // the root of a round-off
+      below("one pair alone, " + l.name + ": equations", worst_equations, 1e-11);
       below("  error", worst_error, 1e-11);
       if (has_keys)
         few("  not solved", wrong, ambiguous(l));
@@ -297,31 +295,6 @@ namespace
         few("  not stopped", wrong, 0);
       below("  energy gained by stop_normal / size", gain_stop, 1e-10);
     }
-  }
-
-  /** A pair that slides keeps its faces together, or parts, and its friction opposes the velocity. */
-  void test_accelerations()
-  {
-    const double mu = .4;
-    const auto   law = make_joint_law("FJA", LawParameters(mu));
-    double       overlap = 0., friction = 0.;
-    unsigned int n_closed = 0, n_parted = 0;
-    for (unsigned int trial = 0; trial < 3000; ++trial)
-    {
-      const Matrix3 H = random_flexibility();
-      const Vector3 b = random_vector(1.), w = random_vector(1.),
-                    f = law->solve_acceleration(H, b, w, 1e-12, PairHistory(), 1), a = plus(b, H * f);
-      const double speed = std::hypot(w[1], w[2]);
-      if (H[0] <= mu * (H[1] * w[1] + H[2] * w[2]) / speed) // Painleve's paradox: has no such solution
-        continue;
-      overlap = std::max(overlap, std::abs(std::min(f[0], a[0])));
-      for (const unsigned int c : {1, 2})
-        friction = std::max(friction, std::abs(f[c] + mu * f[0] * w[c] / speed));
-      (f[0] > 0. ? n_closed : n_parted) += 1;
-    }
-    below("acceleration of sliding pairs: normal force or normal acceleration", overlap, 1e-10);
-    below("  friction against the velocity", friction, 1e-12);
-    expect(n_closed > 500 && n_parted > 500, "both occur");
   }
 
   /** Lengths and forces in other units: the same equations, times the unit of force. */
@@ -369,28 +342,21 @@ namespace
   /** The measure of convergence: the same for all formulations; for FJA Siconos' formula, written anew. */
   void test_error()
   {
-    double between_forms = 0., to_siconos = 0., tied_forms = 0.;
+    double between_forms = 0., to_siconos = 0.;
     for (const double mu : {0., .3, 1., 3.})
     {
-      const auto law = make_joint_law("FJA", mu), paper = make_joint_law("FJA", mu, Equations::paper),
-                 smooth = make_joint_law("FJA", mu, Equations::fischer_burmeister),
-                 key = make_joint_law("FJB", mu),
-                 smooth_key = make_joint_law("FJB", mu, Equations::fischer_burmeister);
+      const auto law = make_joint_law("FJA", mu), paper = make_joint_law("FJA", mu, Equations::paper);
       for (unsigned int trial = 0; trial < 4000; ++trial)
       {
         const Vector3 r = random_vector(1.), gap = random_vector(1.), start = random_start(trial);
         const double  rho = std::pow(10., random_number());
         const Vector3 e = law->error(r, gap, start, rho);
-        between_forms = std::max({between_forms, norm(paper->error(r, gap, start, rho) - e),
-                                  norm(smooth->error(r, gap, start, rho) - e)});
-        tied_forms = std::max(tied_forms,
-                              norm(key->error(r, gap, start, rho) - smooth_key->error(r, gap, start, rho)));
+        between_forms = std::max(between_forms, norm(paper->error(r, gap, start, rho) - e));
         const Vector3 u = {{rho * gap[0], rho * (gap[1] - start[1]), rho * (gap[2] - start[2])}};
         to_siconos = std::max(to_siconos, norm(natural_map_of_contact(r, u, mu) - e));
       }
     }
     below("error of FJA: difference between the formulations", between_forms, 1e-15);
-    below("error of FJB: difference between the formulations", tied_forms, 1e-15);
     below("error of FJA: difference from Siconos' natural map", to_siconos, 1e-13);
   }
 
@@ -511,12 +477,12 @@ namespace
             if (k.direction == "both" || (k.direction == "radial") == (d == 1))
               g[d] = other % 3 == 0 ? std::copysign(play, g[d]) : std::max(-play, std::min(play, g[d]));
           }
-          worst = std::max(worst, -dot(f, g - gap) / (norm(f) * norm(g - gap) + 1e-300));
+          worst = std::max(worst, -dot(f, g - gap) / (norm(f) * (norm(g) + norm(gap)) + 1e-300));
         }
       }
     }
     below("frictionless keys: penetration of any surface", outside, 1e-12);
-    below("frictionless keys: force against an admissible motion", worst, 1e-12);
+    below("frictionless keys: force against an admissible motion", worst, 1e-13);
   }
 
   /** Play, dilation, keys out of their seats, keys on their crests. */
@@ -885,11 +851,11 @@ namespace
       for (std::size_t i = 0; i < u[0].size(); ++i)
         statics = std::max(statics, std::abs(u[0][i] - u[1][i]) / largest(u[0]));
     }
-    for (const ImpactRule rule : {ImpactRule::mean_force, ImpactRule::impulse_consistent})
     {
       const double   dt = 2e-4;
       const Unknowns none(3 * n, 0.), rest(3 * structure.n_nodes(), 0.);
-      Newmark        x(structure, laws[0], tight(), dt, rule), y(structure, laws[1], tight(), dt, rule);
+      Newmark        x(structure, laws[0], tight(), dt, ImpactRule::mean_force),
+          y(structure, laws[1], tight(), dt, ImpactRule::mean_force);
       x.start(rest, rest, none, rest, none);
       y.start(rest, rest, none, rest, none);
       Unknowns amplitude(rest), load(rest);
@@ -913,10 +879,9 @@ namespace
           opened = std::max(opened, x.opening_and_slip(p)[0]);
       }
       above(what + ": opening in time / displacement", opened / most, 1e-3);
-      const std::string which = rule == ImpactRule::mean_force ? "mean force" : "impulse-consistent";
-      below(what + ", " + which + ": displacements", difference / most, 1e-9);
-      below(what + ", " + which + ": velocities", velocity / fastest, 1e-9);
-      below(what + ", " + which + ": energy account", y.energy_error(), 1e-10);
+      below(what + ": displacements", difference / most, 1e-9);
+      below(what + ": velocities", velocity / fastest, 1e-9);
+      below(what + ": energy account", y.energy_error(), 1e-10);
     }
     below(what + ": displacements in statics", statics, 1e-9);
   }
@@ -930,8 +895,8 @@ namespace
 
 int main()
 {
-  return run_all({test_derivatives, test_solve, test_impulses, test_accelerations, test_units, test_error,
-                  test_no_keys, test_rectangular, test_variational, test_kinematics, test_structures,
-                  test_start_on_flank, test_default_friction, test_seats, test_out_over_and_back,
-                  test_back_onto_elastic_seat, test_out_of_compressed_seat});
+  return run_all({test_derivatives, test_solve, test_impulses, test_units, test_error, test_no_keys,
+                  test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank,
+                  test_default_friction, test_seats, test_out_over_and_back, test_back_onto_elastic_seat,
+                  test_out_of_compressed_seat});
 }

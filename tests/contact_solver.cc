@@ -310,8 +310,6 @@ namespace
       p.mu[i] = i % 3 == 0 ? 0. : .4 * (i % 5);
     check("chain, mixed friction, sparse", p, solve(p));
     check("chain, mixed friction, joint by joint", p, solve(p, "dense"));
-    check("chain, mixed friction, Fischer and Burmeister", p,
-          solve(p, "sparse", with("newton"), {}, "fischer-burmeister"));
     // No tangential force at the start, and none at the solution
     for (unsigned int i = 0; i < p.n; ++i)
       p.b[3 * i] = -1., p.b[3 * i + 1] = p.b[3 * i + 2] = 0.;
@@ -469,12 +467,6 @@ namespace
         check(method + ", " + kind, p, s);
         below("  forces against Newton's", difference(s.force, newton.force), 1e-9);
       }
-    for (const std::string equations : {"fischer-burmeister"})
-    {
-      const Solution s = solve(p, "sparse", with("newton"), {}, equations);
-      check(equations, p, s);
-      below("  forces against Newton's", difference(s.force, newton.force), 1e-9);
-    }
   }
 
   /** What has no solution: no crash, no hang, no claim. */

@@ -97,6 +97,14 @@ def cohesive():
         ("Joints/Equations=paper", ("cohesive", "alart-curnier"))))
 
 
+def choices():
+    """A choice that does not exist, such as one of an earlier version."""
+    write_scene()
+    refuse(["scene.prm", "--validate"], (
+        ("Dynamics/Impact=impulse-consistent", ("Dynamics/Impact", "impulse-consistent", "mean-force")),
+        ("Joints/Equations=fischer-burmeister", ("Joints/Equations", "fischer-burmeister", "alart-curnier"))))
+
+
 def own_steps():
     """What does not fit subcycled rock is refused before the run; --validate names the coupling."""
     write_scene()
@@ -173,4 +181,4 @@ def spectrum():
 
 
 if __name__ == "__main__":
-    run_cases(base, lift, gaps, cohesive, own_steps, zones, plane_strain, spectrum)
+    run_cases(base, lift, gaps, cohesive, choices, own_steps, zones, plane_strain, spectrum)

@@ -32,8 +32,7 @@ namespace
       "    Solves frictional contact problems in FCLib's format, or those of Contact/Write problems. Prints a JSON "
       "object per file, with CPU times.\n"
       "  --tolerance X               largest residual, by default 1e-12\n"
-      "  --solver NAME               newton (default, with fallbacks), proximal, sweeps (Gauss-Seidel), paper, "
-      "fischer-burmeister\n"
+      "  --solver NAME               newton (default, with fallbacks), proximal, sweeps (Gauss-Seidel), paper\n"
       "  --max-seconds X             largest CPU time for each problem [s], by default 10\n"
       "  --write-solutions DIR       write the contact forces into this directory\n"
       "  --write-fclib DIR           write the problems into this directory, in FCLib's format\n"
@@ -44,7 +43,7 @@ namespace
   struct ContactOptions
   {
     std::string tolerance = "1e-12"; ///< largest relative residual [-]
-    std::string solver = "newton";   ///< `newton`, `proximal`, `sweeps`, `paper` or `fischer-burmeister`
+    std::string solver = "newton";   ///< `newton`, `proximal`, `sweeps` or `paper`
     std::string max_seconds = "10";  ///< largest CPU time for each problem [s]
     std::string solutions;           ///< directory for the contact forces; empty: not written
     std::string problems;            ///< directory for the problems in FCLib's format; empty: not written
@@ -62,11 +61,11 @@ namespace
   /** Sets the method of --solver. Returns its equations. */
   Equations choose_solver(const std::string &solver, ContactParameters &parameters)
   {
-    if (solver == "paper" || solver == "fischer-burmeister")
+    if (solver == "paper")
       return equations_from_name(solver);
     if (solver != "newton" && solver != "proximal" && solver != "sweeps")
       throw InputError("There is no solver \"" + solver +
-                       "\". The solvers are: newton, proximal, sweeps, paper, fischer-burmeister.");
+                       "\". The solvers are: newton, proximal, sweeps, paper.");
     parameters.method = solver;
     return Equations::alart_curnier;
   }

@@ -22,9 +22,7 @@ namespace Voussoir
     std::string path_name(const ContactParameters &parameters, const Equations equations,
                           const ContactPath path)
     {
-      std::string name = equations == Equations::paper                ? "paper"
-                         : equations == Equations::fischer_burmeister ? "fischer-burmeister"
-                                                                      : parameters.method;
+      std::string name = equations == Equations::paper ? "paper" : parameters.method;
       if (parameters.method == "newton" && path >= ContactPath::sweeps)
         name += "+sweeps";
       if (parameters.method == "newton" && path >= ContactPath::proximal)

@@ -38,18 +38,6 @@ namespace Voussoir
         return active ? solve_coulomb(H, v, mu) : Vector3{};
       }
 
-      Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &w,
-                                 const double stick_speed, const PairHistory &history,
-                                 const unsigned char active) const override
-      {
-        const double speed = length(w[1], w[2]);
-        if (speed <= stick_speed || !active)
-          return solve_impulse(H, b, history, active);
-        const double e1 = w[1] / speed, e2 = w[2] / speed, h = H[0] - mu * (H[1] * e1 + H[2] * e2);
-        const double normal = h > 0. ? std::max(0., -b[0] / h) : std::max(0., -b[0] / H[0]);
-        return {{normal, -mu * normal * e1, -mu * normal * e2}};
-      }
-
       double flat_friction() const override { return mu; }
 
     protected:
@@ -106,99 +94,12 @@ namespace Voussoir
         e.state = !closed ? PairState::open : (slips ? PairState::slip : PairState::stick);
       }
     };
-
-    /** Returns the arrow matrix of the Jordan product with @p x times a 3x3 matrix. */
-    Matrix3 arrow_times(const Vector3 &x, const Matrix3 &a)
-    {
-      Matrix3 b;
-      for (unsigned int j = 0; j < 3; ++j)
-      {
-        b[j] = x[0] * a[j] + x[1] * a[3 + j] + x[2] * a[6 + j];
-        b[3 + j] = x[1] * a[j] + x[0] * a[3 + j];
-        b[6 + j] = x[2] * a[j] + x[0] * a[6 + j];
-      }
-      return b;
-    }
-
-    /** Returns the inverse of the arrow matrix of @p x times a 3x3 matrix. */
-    Matrix3 arrow_inverse_times(const Vector3 &x, const Matrix3 &a)
-    {
-      const double det = x[0] * x[0] - x[1] * x[1] - x[2] * x[2];
-      Matrix3      b;
-      for (unsigned int j = 0; j < 3; ++j)
-      {
-        b[j] = (x[0] * a[j] - x[1] * a[3 + j] - x[2] * a[6 + j]) / det;
-        b[3 + j] = (a[3 + j] - x[1] * b[j]) / x[0];
-        b[6 + j] = (a[6 + j] - x[2] * b[j]) / x[0];
-      }
-      return b;
-    }
-
-    /** Coulomb's law as a complementarity problem on the second-order cone (De Saxce). The vectors X =
-     * rho (u_n + mu |u_t|, mu u_t) and Y = (mu r_n, r_t) must be orthogonal members of the cone. This
-     * holds if and only if X + Y = (X o X + Y o Y)^(1/2), with the Jordan product o (Fukushima, Luo
-     * and Tseng 2001). */
-    class FJASmooth : public FJA
-    {
-    public:
-      using FJA::FJA;
-
-      void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &history, const double rho,
-                    PairEquations &e) const override
-      {
-        alart_curnier(force, gap[0], {{gap[1] - history.start[1], gap[2] - history.start[2]}}, mu, rho,
-                      e); // sets the state
-        const PairState state = e.state;
-        e = {};
-        if (mu == 0.)
-        {
-          smooth_normal_condition(force[0], gap[0], rho, e);
-          for (unsigned int i = 1; i < 3; ++i)
-          {
-            e.residual[i] = force[i];
-            e.d_force[4 * i] = 1.;
-          }
-          e.state = state;
-          return;
-        }
-        const double  s1 = gap[1] - history.start[1], s2 = gap[2] - history.start[2], slip = length(s1, s2);
-        const Vector3 X = {{rho * (gap[0] + mu * slip), rho * mu * s1, rho * mu * s2}},
-                      Y = {{mu * force[0], force[1], force[2]}};
-        const double w0 = dot(X, X) + dot(Y, Y), w1 = 2. * (X[0] * X[1] + Y[0] * Y[1]),
-                     w2 = 2. * (X[0] * X[2] + Y[0] * Y[2]), w = length(w1, w2);
-        const double low = std::sqrt(std::max(0., w0 - w)), high = std::sqrt(w0 + w);
-        Vector3      z = {{.5 * (high + low), 0., 0.}};
-        if (w > 0.)
-          z[1] = .5 * (high - low) * w1 / w, z[2] = .5 * (high - low) * w2 / w;
-        for (unsigned int i = 0; i < 3; ++i)
-          e.residual[i] = X[i] + Y[i] - z[i];
-        const double k1 = slip > 0. ? s1 / slip : 0., k2 = slip > 0. ? s2 / slip : 0.;
-        Matrix3      dX = {{rho, rho * mu * k1, rho * mu * k2, 0., rho * mu, 0., 0., 0., rho * mu}},
-                dY = {{mu, 0., 0., 0., 1., 0., 0., 0., 1.}};
-        Vector3 x = X, y = Y;
-        if (!(high > 0.)) // X = Y = 0: an element of the generalised Jacobian
-          z = {{1., 0., 0.}}, x = y = {{std::sqrt(.5), 0., 0.}};
-        else if (low < 1e-8 * high) // on the boundary of the cone: an element nearby
-          z[0] += 1e-8 * high;
-        const Matrix3 a = arrow_inverse_times(z, arrow_times(x, dX)),
-                      b = arrow_inverse_times(z, arrow_times(y, dY));
-        for (unsigned int k = 0; k < 9; ++k)
-        {
-          e.d_gap[k] = dX[k] - a[k];
-          e.d_force[k] = dY[k] - b[k];
-        }
-        e.state = state;
-        e.active = state != PairState::open;
-      }
-    };
   } // namespace
 
   std::unique_ptr<JointLaw> make_fja_law(const LawParameters &parameters)
   {
     if (parameters.equations == Equations::paper)
       return std::make_unique<FJAPaper>(parameters.friction);
-    if (parameters.equations == Equations::fischer_burmeister)
-      return std::make_unique<FJASmooth>(parameters.friction);
     return std::make_unique<FJA>(parameters.friction);
   }
 } // namespace Voussoir

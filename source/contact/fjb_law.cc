@@ -14,16 +14,11 @@ namespace Voussoir
     class FJB : public JointLaw
     {
     public:
-      explicit FJB(const bool smooth) : smooth(smooth) {}
-
       void evaluate(const Vector3 &force, const Vector3 &gap, const PairHistory &, const double rho,
                     PairEquations &e) const override
       {
         e = {};
-        if (smooth)
-          smooth_normal_condition(force[0], gap[0], rho, e);
-        else
-          normal_condition(force[0], gap[0], rho, e);
+        normal_condition(force[0], gap[0], rho, e);
         no_slip(gap[1], gap[2], rho, e);
         e.state = e.active ? PairState::stick : PairState::open;
       }
@@ -43,14 +38,11 @@ namespace Voussoir
         return active ? solve(H, v, history) : tie_rows(H, v, tangential);
       }
       bool is_tangentially_tied() const override { return true; }
-
-    private:
-      const bool smooth;
     };
   } // namespace
 
-  std::unique_ptr<JointLaw> make_fjb_law(const LawParameters &parameters)
+  std::unique_ptr<JointLaw> make_fjb_law(const LawParameters &)
   {
-    return std::make_unique<FJB>(parameters.equations == Equations::fischer_burmeister);
+    return std::make_unique<FJB>();
   }
 } // namespace Voussoir

@@ -20,12 +20,6 @@ namespace Voussoir
              applied[2]}};
   }
 
-  Vector3 JointLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &, double,
-                                       const PairHistory &history, const unsigned char active) const
-  {
-    return solve_impulse(H, b, history, active);
-  }
-
   double JointLaw::utilisation(const Vector3 &, const Vector3 &, const PairHistory &) const
   {
     return 0.;

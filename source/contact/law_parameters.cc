@@ -7,8 +7,7 @@ namespace Voussoir
   namespace
   {
     const Names<Equations> names_of_equations = {{"alart-curnier", Equations::alart_curnier},
-                                                 {"paper", Equations::paper},
-                                                 {"fischer-burmeister", Equations::fischer_burmeister}};
+                                                 {"paper", Equations::paper}};
   } // namespace
 
   Equations equations_from_name(const std::string &name)

@@ -12,15 +12,6 @@ namespace Voussoir
     return closed;
   }
 
-  void smooth_normal_condition(const double force, const double opening, const double rho, PairEquations &e)
-  {
-    const double gap = rho * opening, r = length(force, gap);
-    e.residual[0] = force + gap - r;
-    e.d_force[0] = r > 0. ? 1. - force / r : 1. - std::sqrt(.5);
-    e.d_gap[0] = rho * (r > 0. ? 1. - gap / r : 1. - std::sqrt(.5));
-    e.active = force > gap;
-  }
-
   void no_slip(const double slip_a, const double slip_b, const double rho, PairEquations &e)
   {
     e.residual[1] = rho * slip_a;

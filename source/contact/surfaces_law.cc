@@ -154,12 +154,4 @@ namespace Voussoir
       add(result, solve_surfaces(active_surfaces(active, true), H, v));
     return result;
   }
-
-  Vector3 SurfacesLaw::solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                          const double stick_speed, const PairHistory &history,
-                                          const unsigned char active) const
-  {
-    return active == 1 ? face->solve_acceleration(H, b, slip_velocity, stick_speed, history, active)
-                       : solve_impulse(H, b, history, active);
-  }
 } // namespace Voussoir

@@ -91,8 +91,8 @@ namespace Voussoir
     prm.add_parameter(
         "Equations", equations_name,
         "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
-        "slip angle of the joint force, as printed. fischer-burmeister: other function. Both are for "
-        "comparison. Default alart-curnier, because it always converges.",
+        "slip angle of the joint force, as printed, for comparison. Default alart-curnier, because it always "
+        "converges.",
         Patterns::Selection(equations_names()));
     keys.add_parameters(prm);
     prm.leave_subsection();
@@ -358,8 +358,7 @@ namespace Voussoir
     prm.add_parameter(
         "Impact", impact_rule,
         "Joint forces and velocities of closed joints. mean-force: the forces are means over "
-        "the step, so joints never create energy. For comparison: impulse-consistent (forces at the end "
-        "of the step, with Coulomb's law for impulses), paper (Taylor and Papadopoulos) and none "
+        "the step, so joints never create energy. For comparison: paper (Taylor and Papadopoulos) and none "
         "(plain Newmark, which oscillates).",
         Patterns::Selection(impact_rule_names()));
     prm.add_parameter("Factors", factors,

@@ -47,10 +47,8 @@ namespace Voussoir
       return {{factor * x[0], factor * x[1], factor * x[2]}};
     }
 
-    const Names<ImpactRule> names_of_rules = {{"mean-force", ImpactRule::mean_force},
-                                              {"impulse-consistent", ImpactRule::impulse_consistent},
-                                              {"paper", ImpactRule::paper},
-                                              {"none", ImpactRule::none}};
+    const Names<ImpactRule> names_of_rules = {
+        {"mean-force", ImpactRule::mean_force}, {"paper", ImpactRule::paper}, {"none", ImpactRule::none}};
   } // namespace
 
   ImpactRule impact_rule(const std::string &name)
@@ -208,9 +206,8 @@ namespace Voussoir
       return;
     }
     const unsigned char active = system.active_surfaces()[p];
-    if (rows == ImpactRows::normal ||
-        (rule == ImpactRule::mean_force && system.states()[p] == PairState::slip &&
-         slides_on(law, of_pair(p), jump, applied, get(change, p), active)))
+    if (rows == ImpactRows::normal || (system.states()[p] == PairState::slip &&
+                                       slides_on(law, of_pair(p), jump, applied, get(change, p), active)))
     {
       // The mean friction of the step has an error of second order. Friction from the velocity at the end
       // would have one of first order.
@@ -223,7 +220,7 @@ namespace Voussoir
     // Velocity without the joint forces of this step, then the impulse that the law allows.
     const Vector3 lost = of_pair(p) * applied;
     Vector3       allowed = law.solve_impulse(of_pair(p), jump - lost, history, system.active_surfaces()[p]);
-    if (rule == ImpactRule::mean_force && !law.is_tangentially_tied())
+    if (!law.is_tangentially_tied())
     {
       // If loads tear at a pair more than the impact, the new friction impulse could supply more energy than
       // the pair has dissipated. In this case only the normal row is corrected, which
@@ -242,42 +239,24 @@ namespace Voussoir
     set(impulse, p, allowed);
   }
 
-  Unknowns Impact::end_force(const JointSystem &system, const std::vector<PairHistory> &histories,
-                             const Unknowns &force, const Unknowns &v, const Unknowns &nodal_force) const
+  Unknowns Impact::end_force(const JointSystem &system, const std::vector<PairHistory> &,
+                             const Unknowns &force, const Unknowns &, const Unknowns &nodal_force) const
   {
     Unknowns a(nodal_force.size()), result(force.size(), 0.);
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)
       set(a, i, inverse_masses()[i] * get(nodal_force, i));
-    if (rule == ImpactRule::paper)
-      for (std::size_t p = 0; p < structure.pairs.size(); ++p)
-        add_impulse(structure.pairs[p], get(force, p), a);
-
-    double fastest = 0.;
-    for (const double x : v)
-      fastest = std::max(fastest, std::abs(x));
-    const double stick_speed = std::max(1e-9 * fastest, 1e-12);
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      add_impulse(structure.pairs[p], get(force, p), a);
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
     {
-      const Pair     &pair = structure.pairs[p];
-      const JointLaw &law = *laws.of_pair[p];
-      const bool      closed = system.states()[p] != PairState::open;
-      const Vector3   jump = structure.jump(pair, a);
-      if (rule == ImpactRule::paper)
-      {
-        const bool    tied = law.is_tangentially_tied() || system.states()[p] == PairState::stick;
-        const bool    face = system.active_surfaces()[p] & 1;
-        const Vector3 f = tie_rows(of_pair(p), jump, {{face, tied, tied}});
-        add_impulse(pair, f, a);
-        for (unsigned int c = 0; c < 3; ++c)
-          result[3 * p + c] = force[3 * p + c] + f[c];
-      }
-      else if (closed || law.is_tangentially_tied())
-      {
-        const Vector3 f = law.solve_acceleration(of_pair(p), jump, structure.jump(pair, v), stick_speed,
-                                                 histories[p], system.active_surfaces()[p]);
-        add_impulse(pair, f, a);
-        set(result, p, f);
-      }
+      const Pair   &pair = structure.pairs[p];
+      const bool    tied = laws.of_pair[p]->is_tangentially_tied() || system.states()[p] == PairState::stick;
+      const bool    face = system.active_surfaces()[p] & 1;
+      const Vector3 f = tie_rows(of_pair(p), structure.jump(pair, a), {{face, tied, tied}});
+      add_impulse(pair, f, a);
+      Vector3 total = get(force, p);
+      add(total, f);
+      set(result, p, total);
     }
     return result;
   }

@@ -39,9 +39,6 @@ int main()
     normal_condition(pair.force[0], pair.gap[0], rho, e);
     print("normal condition", e);
     e = PairEquations{};
-    smooth_normal_condition(pair.force[0], pair.gap[0], rho, e);
-    print("smooth normal condition", e);
-    e = PairEquations{};
     alart_curnier(pair.force, pair.gap[0], {{pair.gap[1], pair.gap[2]}}, friction, rho, e);
     print("Alart and Curnier", e);
   }

@@ -71,8 +71,8 @@ namespace Voussoir
    * 2. utilisation() for each pair. If a value exceeds 1, apply_event() for the pairs with the largest
    *    values, and the step is solved again from 1;
    * 3. commit() once for each pair;
-   * 4. after commit(): solve_impulse(), stop_normal() or solve_acceleration() for the velocity correction
-   *    (Impact). They receive the history variables after 2, not those that commit() changed. */
+   * 4. after commit(): solve_impulse() or stop_normal() for the velocity correction (Impact).
+   *    They receive the history variables after 2, not those that commit() changed. */
   class JointLaw
   {
   public:
@@ -123,20 +123,6 @@ namespace Voussoir
      * requires more tension than @p applied has. An open pair (@p active 0) keeps @p applied. */
     virtual Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
                                 unsigned char active) const;
-
-    /** Returns the contact force at the end of a step, for the acceleration H force + b of side 2 relative to
-     * side 1 [N]. Only rules with forces at the end of the step require it (ImpactRule).
-     * @param H inverse mass of the pair [1/kg]
-     * @param b acceleration of side 2 relative to side 1 without the force [m/s^2]
-     * @param slip_velocity velocity of side 2 relative to side 1 [m/s]
-     * @param stick_speed largest slip speed of a sticking pair [m/s]; a faster pair slips
-     * @param history data of the pair
-     * @param active active surfaces, see PairEquations::active
-     *
-     * The default is solve_impulse(H, b, history, active). */
-    virtual Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                                       double stick_speed, const PairHistory &history,
-                                       unsigned char active) const;
 
     /** Returns true if slip is zero for open and closed pairs. */
     virtual bool is_tangentially_tied() const { return false; }

@@ -12,8 +12,7 @@ namespace Voussoir
   enum class Equations
   {
     alart_curnier, ///< as in the paper, with the angle of the trial force: a projection, Lipschitz continuous
-    paper,         ///< (2b), (3b), (4b) of the paper, with the angle of the force, undefined for zero force
-    fischer_burmeister ///< complementarity on second-order cones, with a smooth merit function
+    paper          ///< (2b), (3b), (4b) of the paper, with the angle of the force, undefined for zero force
   };
 
   Equations   equations_from_name(const std::string &name); ///< throws InputError for an unknown name

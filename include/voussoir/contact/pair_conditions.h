@@ -13,10 +13,6 @@ namespace Voussoir
    * - rho gap_n). Returns whether the pair is closed. */
   bool normal_condition(double force, double opening, double rho, PairEquations &equations);
 
-  /** Computes the normal condition with the Fischer-Burmeister function: a + b = sqrt(a^2 + b^2), where a =
-   * force_n and b = rho gap_n. */
-  void smooth_normal_condition(double force, double opening, double rho, PairEquations &equations);
-
   /** Computes the equations of a pair without slip, (5) and (6). */
   void no_slip(double slip_a, double slip_b, double rho, PairEquations &equations);
 

@@ -47,9 +47,6 @@ namespace Voussoir
                           unsigned char active) const override;
     Vector3 stop_normal(const Matrix3 &H, const Vector3 &v, const Vector3 &applied,
                         unsigned char active) const override;
-    Vector3 solve_acceleration(const Matrix3 &H, const Vector3 &b, const Vector3 &slip_velocity,
-                               double stick_speed, const PairHistory &history,
-                               unsigned char active) const override;
 
   private:
     /** Returns the forces of the secondary surfaces for the force and the gap of a solution, three values per

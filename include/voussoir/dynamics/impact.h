@@ -13,9 +13,8 @@ namespace Voussoir
   enum class ImpactRule
   {
     mean_force, ///< joint forces are means over the step; their impulses satisfy Coulomb's law; default
-    impulse_consistent, ///< joint forces at the end of the step; Coulomb's law for impulse and acceleration
-    paper, ///< Taylor and Papadopoulos: closed rows and sticking rows get the relative velocity zero
-    none   ///< no correction (plain Newmark); joint forces oscillate; for comparison
+    paper,      ///< Taylor and Papadopoulos: closed rows and sticking rows get the relative velocity zero
+    none        ///< no correction (plain Newmark); joint forces oscillate; for comparison
   };
 
   /** Rows of a closed pair that the correction changes. */
@@ -41,7 +40,7 @@ namespace Voussoir
   class Impact : PairClusters
   {
   public:
-    /** Inverts the masses. Throws InputError if pairs share nodes and the rule is paper or impulse_consistent. */
+    /** Inverts the masses. Throws InputError if pairs share nodes and the rule is paper. */
     Impact(const Structure &structure, const JointLaws &laws, ImpactRule rule);
 
     /** Corrects the velocities and impulses of all pairs at the end of a step.
@@ -55,11 +54,11 @@ namespace Voussoir
                           const Unknowns &change, Unknowns &v, Unknowns &impulse) const;
 
     /** Returns the joint forces at the end of the step from the accelerations there, three values per pair
-     * [N]. For the rules paper and impulse_consistent.
+     * [N]. For the rule paper.
      * @param system joint system that has solved the step
-     * @param histories data of the pairs in the equations of the step
+     * @param histories not used
      * @param force joint forces of the displacements, three values per pair [N]
-     * @param v corrected velocity, three values per node [m/s]
+     * @param v not used
      * @param nodal_force all nodal forces except the joint forces, three values per node [N] */
     Unknowns end_force(const JointSystem &system, const std::vector<PairHistory> &histories,
                        const Unknowns &force, const Unknowns &v, const Unknowns &nodal_force) const;
