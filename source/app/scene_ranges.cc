@@ -3,6 +3,7 @@
 #include <voussoir/base/curve_file.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/tensor3.h>
 #include <voussoir/base/units.h>
 #include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/temperature.h>
@@ -132,16 +133,14 @@ namespace Voussoir
 
     NamedValues crest_line(const Scene &scene)
     {
-      const Vector3 q = scene.loads.line_load();
-      return {{"the force per length", std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2])}};
+      return {{"the force per length", norm(scene.loads.line_load())}};
     }
 
     NamedValues concentrated_forces(const Scene &scene)
     {
       NamedValues values;
       for (const auto &[name, load] : scene.loads.point_loads())
-        values.emplace_back(name, std::sqrt(load.force[0] * load.force[0] + load.force[1] * load.force[1] +
-                                            load.force[2] * load.force[2]));
+        values.emplace_back(name, norm(load.force));
       return values;
     }
 

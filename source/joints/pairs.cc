@@ -5,13 +5,13 @@
 
 #include <voussoir/base/error.h>
 #include <voussoir/joints/pairs.h>
+#include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/solid/solid_grid.h>
 #include <voussoir/solid/solid_model.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <sstream>
 #include <tuple>
 
@@ -244,25 +244,16 @@ namespace Voussoir
   std::vector<std::vector<unsigned int>> clusters_of(const std::vector<Pair> &pairs)
   {
     std::map<unsigned int, unsigned int> first; // pair of each free node
-    std::vector<unsigned int>            cluster(pairs.size());
-    std::iota(cluster.begin(), cluster.end(), 0);
-    const auto root = [&](unsigned int p)
-    {
-      while (cluster[p] != p)
-        p = cluster[p];
-      return p;
-    };
+    NumberPairs                          together;
     for (unsigned int p = 0; p < pairs.size(); ++p)
       for (const unsigned int node : {pairs[p].node_1, pairs[p].node_2})
         if (node != rigid_ground)
           if (const auto found = first.emplace(node, p); !found.second)
-          {
-            const unsigned int a = root(found.first->second), b = root(p);
-            cluster[std::max(a, b)] = std::min(a, b);
-          }
+            together.emplace_back(found.first->second, p);
+    const std::vector<unsigned int>                   smallest = smallest_of_sets(pairs.size(), together);
     std::map<unsigned int, std::vector<unsigned int>> members;
     for (unsigned int p = 0; p < pairs.size(); ++p)
-      members[root(p)].push_back(p);
+      members[smallest[p]].push_back(p);
     std::vector<std::vector<unsigned int>> result;
     for (const auto &[p, list] : members)
       if (list.size() > 1)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/plane_section.h>
 
 #include <algorithm>
@@ -9,15 +10,10 @@ namespace Voussoir
 {
   double cosine_to_y(const HexMesh &mesh, const unsigned int cell_number, const unsigned int face)
   {
-    const HexMesh::Cell  &cell = mesh.cells[cell_number];
-    std::array<double, 3> diagonal[2];
-    for (unsigned int k = 0; k < 2; ++k)
-      for (unsigned int d = 0; d < 3; ++d)
-        diagonal[k][d] =
-            mesh.nodes[cell.nodes[hex_faces[face][2 + k]]][d] - mesh.nodes[cell.nodes[hex_faces[face][k]]][d];
-    const auto &[a, b] = diagonal;
-    const double x = a[1] * b[2] - a[2] * b[1], y = a[2] * b[0] - a[0] * b[2], z = a[0] * b[1] - a[1] * b[0];
-    return std::abs(y) / std::hypot(x, y, z);
+    const auto corner = [&](const unsigned int k)
+    { return mesh.nodes[mesh.cells[cell_number].nodes[hex_faces[face][k]]]; };
+    const Vector3 normal = cross(corner(2) - corner(0), corner(3) - corner(1));
+    return std::abs(normal[1]) / norm(normal);
   }
 
   void check_plane_section(const HexMesh &opened, const std::string &source)
