@@ -210,6 +210,7 @@ namespace Voussoir
       before = entry.place;
     }
     scene.check();
+    scene.output.read_intervals(scene.motion.time_step);
     scene.motion.read_target(scene.directory);
     std::vector<WrittenEntry> in_order;
     for (const DeclaredEntry &declared : known)

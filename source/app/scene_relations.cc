@@ -75,10 +75,10 @@ namespace Voussoir
     std::string rare_envelopes(const Scene &scene)
     {
       const LimitParameters &limits = scene.limits;
-      if (scene.output.envelope_interval <= 1 ||
+      if (scene.output.envelope_interval.samples <= 1 ||
           (limits.static_strength() == 0. && limits.tension == 0. && limits.compression == 0.))
         return "";
-      return "Output/Envelope interval is " + std::to_string(scene.output.envelope_interval) +
+      return "Output/Envelope interval is " + std::to_string(scene.output.envelope_interval.samples) +
              ": peaks of the stresses between are missed, so the limits of stresses are not evaluated. Set "
              "Output/Envelope interval to 1 for these limits (section Limits).";
     }

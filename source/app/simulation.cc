@@ -215,7 +215,7 @@ namespace Voussoir
               record();
               counters.shaking = before + loop_clock.seconds();
               counters.shaking_cpu = cpu_before + double(std::clock() - cpu_start) / CLOCKS_PER_SEC;
-              if (state.is_due(scene.output.progress_interval) || state.is_last())
+              if (state.is_due(scene.output.progress_interval.samples) || state.is_last())
                 report_step();
             });
         save_if_due();
@@ -328,7 +328,7 @@ namespace Voussoir
       return;
     if (const char *signal = this->signal())
       keep_and_stop(signal);
-    if (state.is_due(scene.output.checkpoint_interval))
+    if (state.is_due(scene.output.checkpoint_interval.samples))
     {
       gather_on_root();
       Ranks::on_first([this] { checkpoint.save(state, *observers, counters); });

@@ -94,7 +94,7 @@ namespace Voussoir
     {
       const StressObserver &stress = observers.stresses;
       const StressesOfRun   stresses{stress.envelope, stress.tension,
-                                   run.n_steps > 0 ? run.scene().output.envelope_interval : 1};
+                                   run.n_steps > 0 ? run.scene().output.envelope_interval.samples : 1};
       return {run.scene().limits,
               *run.dam->model,
               stress.is_recording() ? &stresses : nullptr,

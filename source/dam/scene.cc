@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <regex>
 #include <set>
@@ -248,21 +249,21 @@ namespace Voussoir
         "Depths below the water level whose dynamic pressure is written to history.csv, such as \"20, "
         "50\" [m]. Reservoir/Model acoustic only. The point is the middle of the upstream face at the depth.",
         Patterns::List(Patterns::Double(0.)));
-    prm.add_parameter("Envelope interval", envelope_interval,
-                      "Number of steps between two evaluations of the stress envelopes [-]. 0: no envelopes.",
-                      Patterns::Integer(0));
-    prm.add_parameter("Solution interval", solution_interval,
-                      "Number of steps between two ParaView files of the solution [-]. 0: none.",
-                      Patterns::Integer(0));
+    const auto add = [&](const char *name, OutputInterval &interval, const std::string &help)
+    {
+      prm.add_parameter(name, interval.text,
+                        help + " Number of samples of the motion, or a time with its unit, as 50 ms: a "
+                               "multiple of Motion/Time step.");
+    };
+    add("Envelope interval", envelope_interval, "Interval of the stress envelopes. 0: no envelopes.");
+    add("Solution interval", solution_interval, "Interval of the solution's ParaView files. 0: none.");
     prm.add_parameter(
         "Frames", frames,
         "Largest number of frames in frames.bin [-], from which the report makes its view of the "
         "moving dam. They are at equal intervals in the strong part of the motion. 0: none.",
         Patterns::Integer(0));
-    prm.add_parameter("Checkpoint interval", checkpoint_interval,
-                      "Number of steps between two checkpoints [-]. 0: none.", Patterns::Integer(0));
-    prm.add_parameter("Progress interval", progress_interval,
-                      "Number of steps between two progress lines [-].", Patterns::Integer(1));
+    add("Checkpoint interval", checkpoint_interval, "Interval of the checkpoints. 0: none.");
+    add("Progress interval", progress_interval, "Interval of the progress lines.");
     prm.add_parameter("Figures", figures,
                       "true: draw the figures at the end of the run. Requires python3-matplotlib.");
     prm.add_parameter(
@@ -285,6 +286,32 @@ namespace Voussoir
     probe_places();
     if (std::set<double>(pressure_depths.begin(), pressure_depths.end()).size() < pressure_depths.size())
       throw InputError("Entry \"Output/Pressure depths\" has a depth twice. Remove one.");
+  }
+
+  void OutputParameters::read_intervals(const double sample)
+  {
+    const auto read = [&](const std::string &name, OutputInterval &interval, const unsigned int least)
+    {
+      const std::string entry = "Entry \"Output/" + name + " interval\"", &text = interval.text;
+      char             *end = nullptr;
+      double            n = std::strtod(text.c_str(), &end);
+      const bool        is_time = *end != '\0' && !unit_name(end, "time").empty();
+      if (is_time)
+        n = number_in_unit(text, "s", entry) / sample;
+      const double whole = std::round(n);
+      if (text.empty() || (*end != '\0' && !is_time) || !(n >= least && n <= 1e9) ||
+          std::abs(n - whole) > (is_time ? 1e-6 * whole : 0.))
+        throw InputError(entry + " is \"" + text + "\"" +
+                         (is_time ? ", " + number_text(n) + " samples of the motion" : "") +
+                         ". It must be a number of samples from " + std::to_string(least) +
+                         ", or a time with its unit that is a multiple of Motion/Time step, " +
+                         number_text(sample) + " s.");
+      interval.samples = static_cast<unsigned int>(whole);
+    };
+    read("Envelope", envelope_interval, 0);
+    read("Solution", solution_interval, 0);
+    read("Checkpoint", checkpoint_interval, 0);
+    read("Progress", progress_interval, 1);
   }
 
   std::map<std::string, Vector3> OutputParameters::probe_places() const

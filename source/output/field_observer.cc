@@ -17,7 +17,7 @@ namespace Voussoir
 
   void FieldObserver::flush()
   {
-    if (run.is_due(run.scene().output.solution_interval))
+    if (run.is_due(run.scene().output.solution_interval.samples))
       write();
   }
 

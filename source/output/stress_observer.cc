@@ -37,10 +37,10 @@ namespace Voussoir
     if (!is_recording())
       return;
     const Stopwatch watch;
-    if (run.is_due(run.scene().output.envelope_interval))
+    if (run.is_due(run.scene().output.envelope_interval.samples))
       envelope.record(run.integrator->state().time, run.statics.elastic(run.integrator->state().u),
                       tractions_now());
-    if (run.is_due(run.scene().output.progress_interval) || run.is_last())
+    if (run.is_due(run.scene().output.progress_interval.samples) || run.is_last())
       envelope.gather();
     seconds += watch.seconds();
   }

@@ -78,22 +78,31 @@ namespace Voussoir
     void         add_choices(ModelChoices &choices) const;
   };
 
+  /** Interval of an output, as in the input file and in samples of the motion. */
+  struct OutputInterval
+  {
+    std::string  text;    ///< number of samples, or a time with its unit
+    unsigned int samples; ///< 0: none
+  };
+
   /** Parameters of the subsection "Output". */
   struct OutputParameters
   {
-    std::map<std::string, std::string> probes;                        ///< positions "x y z" [m] by name
-    std::vector<double>                pressure_depths;               ///< below the water level [m]
-    unsigned int                       envelope_interval = 1;         ///< [steps], 0: none
-    unsigned int                       solution_interval = 0;         ///< [steps], 0: none
-    unsigned int                       frames = 200;                  ///< largest number, 0: none
-    unsigned int                       checkpoint_interval = 500;     ///< [steps], 0: none
-    unsigned int                       progress_interval = 64;        ///< [steps]
+    std::map<std::string, std::string> probes;          ///< positions "x y z" [m] by name
+    std::vector<double>                pressure_depths; ///< below the water level [m]
+    OutputInterval                     envelope_interval{"1", 1}, solution_interval{"0", 0};
+    unsigned int                       frames = 200; ///< largest number, 0: none
+    OutputInterval                     checkpoint_interval{"500", 500}, progress_interval{"64", 64};
     bool                               figures = true;                ///< draw figures
     bool                               block_forces = true;           ///< write blocks.csv
     std::string                        stress_recovery = "tractions"; ///< tractions or elements
     double                             tensile_strength = 0.;         ///< [Pa], 0: none
     void                               add_parameters(Entries &prm);
     void                               check() const;
+
+    /** Computes the samples of all intervals. @p sample: sampling interval of the motion [s]. Throws InputError for
+     * an interval that is not a whole number of samples. */
+    void read_intervals(double sample);
 
     /** Returns true if the stress recovery uses the known tractions. */
     bool knows_tractions() const { return stress_recovery == "tractions"; }

@@ -155,7 +155,7 @@ namespace Voussoir
     std::vector<Stress> now();
 
     /** Returns true if stresses are recorded. */
-    bool is_recording() const { return run.scene().output.envelope_interval > 0; }
+    bool is_recording() const { return run.scene().output.envelope_interval.samples > 0; }
 
     /** Adds the largest principal stresses [Pa] to @p json, "extremes" of summary.json. */
     void add_extremes(Json &json) const;
