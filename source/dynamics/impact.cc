@@ -239,8 +239,8 @@ namespace Voussoir
     set(impulse, p, allowed);
   }
 
-  Unknowns Impact::end_force(const JointSystem &system, const std::vector<PairHistory> &,
-                             const Unknowns &force, const Unknowns &, const Unknowns &nodal_force) const
+  Unknowns Impact::end_force(const JointSystem &system, const Unknowns &force,
+                             const Unknowns &nodal_force) const
   {
     Unknowns a(nodal_force.size()), result(force.size(), 0.);
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)

@@ -112,7 +112,7 @@ namespace Voussoir
     if (rule == ImpactRule::mean_force || rule == ImpactRule::none || structure.pairs.empty())
       now.force = force;
     else
-      now.force = impact.end_force(level.system, histories, force, now.v, force_without_joints());
+      now.force = impact.end_force(level.system, force, force_without_joints());
     return true;
   }
 

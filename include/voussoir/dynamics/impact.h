@@ -56,12 +56,9 @@ namespace Voussoir
     /** Returns the joint forces at the end of the step from the accelerations there, three values per pair
      * [N]. For the rule paper.
      * @param system joint system that has solved the step
-     * @param histories not used
      * @param force joint forces of the displacements, three values per pair [N]
-     * @param v not used
      * @param nodal_force all nodal forces except the joint forces, three values per node [N] */
-    Unknowns end_force(const JointSystem &system, const std::vector<PairHistory> &histories,
-                       const Unknowns &force, const Unknowns &v, const Unknowns &nodal_force) const;
+    Unknowns end_force(const JointSystem &system, const Unknowns &force, const Unknowns &nodal_force) const;
 
   private:
     struct ClusterStep;
