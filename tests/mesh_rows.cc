@@ -12,6 +12,7 @@
 #include <voussoir/mesh/mesh_source.h>
 #include <voussoir/solid/critical_step.h>
 #include <voussoir/solid/solid_model.h>
+#include <voussoir/water/water_section.h>
 
 #include <cstdio>
 #include <functional>
@@ -261,6 +262,32 @@ namespace
     expect(rows > 5 * equal, "critical step");
   }
 
+  /** The section of the reservoir finds its places on the wet face, also beside the distorted faces of the templates. */
+  void test_water()
+  {
+    std::vector<double> x[2];
+    for (const bool equal_rows : {false, true})
+    {
+      const HexMesh        mesh = make_arch(arch210_shape(), grid({5, 60, 20, 1}, equal_rows)).mesh;
+      std::vector<WetQuad> faces;
+      for (const auto &face : mesh.faces)
+        if (face.surface == PhysicalId::upstream)
+        {
+          WetQuad quad{{}, 1};
+          for (unsigned int k = 0; k < 4; ++k)
+            quad.corners[k] = mesh.nodes[face.nodes[k]];
+          faces.push_back(quad);
+        }
+      x[equal_rows] = WaterSection(faces, 195., 195. / 16.).face_x;
+    }
+    expect(x[0].size() == x[1].size(), "nodes of the section");
+    double largest = 0.;
+    for (std::size_t i = 0; i < x[0].size(); ++i)
+      largest = std::max(largest, std::abs(x[0][i] - x[1][i]));
+    std::printf("  wet face: largest difference of x from equal rows %.3f m\n", largest);
+    expect(largest < .5, "the wet face");
+  }
+
   /** Nodes inside bear no force under a linear displacement, also in the templates. */
   void test_patch()
   {
@@ -304,6 +331,7 @@ int main()
   return run({{"arch210", test_arch210},
               {"equal rows", test_equal_rows},
               {"arcs", test_arcs},
+              {"water", test_water},
               {"patch test", test_patch},
               {"critical step", test_critical_step}});
 }

@@ -385,9 +385,10 @@ namespace Voussoir
         if (distance(p, projected(c[0])) > 3. * reach)
           continue;
         double s = .5, t = .5;
+        Point2 r;
         for (unsigned int pass = 0; pass < 20; ++pass)
         {
-          Point2 r, a, b;
+          Point2 a, b;
           for (unsigned int d = 0; d < 2; ++d)
           {
             const double c0 = c[0][d + 1], c1 = c[1][d + 1], c2 = c[2][d + 1], c3 = c[3][d + 1];
@@ -399,7 +400,9 @@ namespace Voussoir
           s = std::clamp(s - (r[0] * b[1] - r[1] * b[0]) / det, -2., 3.);
           t = std::clamp(t - (a[0] * r[1] - a[1] * r[0]) / det, -2., 3.);
         }
-        const double outside = std::max({-s, s - 1., -t, t - 1., 0.});
+        const bool is_found =
+            std::hypot(r[0], r[1]) < 1e-6 * reach; // far from some faces the iteration fails
+        const double outside = is_found ? std::max({-s, s - 1., -t, t - 1., 0.}) : 10.;
         if (outside < least)
         {
           least = outside;
