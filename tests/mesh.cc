@@ -23,6 +23,7 @@ namespace
     parameters.n_joints = n_joints;
     parameters.elements_along = along;
     parameters.elements_up = up;
+    parameters.equal_rows = true; // numbers of nodes by column and row
     return make_arch210(parameters);
   }
 
@@ -153,6 +154,7 @@ namespace
     {
       Arch210Parameters parameters;
       parameters.n_joints = n_joints;
+      parameters.equal_rows = true; // numbers of nodes by column and row
       const HexMesh mesh = make_arch210(parameters);
       parameters.smallest_height = 0;
       const HexMesh     slivers = make_arch210(parameters);

@@ -89,6 +89,7 @@ namespace
     p.arcs.grid.elements_along = 24;
     p.arcs.grid.elements_up = 6;
     p.arcs.grid.elements_through = 2;
+    p.arcs.grid.equal_rows = true; // numbers of nodes by column and row
     const HexMesh mesh = make_mesh(p, ".");
     const auto    shape = p.arcs.shape(".");
     const double  x_crest = 150; // centre of the crest

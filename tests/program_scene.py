@@ -170,8 +170,8 @@ def groups():
     expect("no Reservoir/Water level: it is 195 m, the default for the dam arch210" in shown, f"the built-in dam's level for another: {shown}")
     given = runs("scene.prm", "--validate", *from_file("arch.msh"), "--set", "Reservoir/Water level=195")
     expect("the default for the dam" not in given, given)
-    for row in (r"Groups +monolith 1 \.\.\. monolith 3 +-> +monolith 1 to monolith 3 +18 hexahedra", r"base +-> +base +\d+ faces",
-                r"upstream +-> +upstream +18 faces", r"crest +-> +crest +6 faces"):
+    for row in (r"Groups +monolith 1 \.\.\. monolith 3 +-> +monolith 1 to monolith 3 +\d+ hexahedra", r"base +-> +base +\d+ faces",
+                r"upstream +-> +upstream +\d+ faces", r"crest +-> +crest +6 faces"):
         expect(re.search(row, shown), f"'{row}' is missing: {shown}")
     built_in = runs("scene.prm", "--validate")
     expect(re.search(r"Groups.*(\n +.*){4}", built_in)[0] == re.search(r"Groups.*(\n +.*){4}", shown)[0], built_in)

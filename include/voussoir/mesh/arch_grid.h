@@ -16,13 +16,13 @@ namespace Voussoir
   /** Mesh of an arch dam: joints, numbers of elements, and the dam's lowest parts. */
   struct ArchGrid
   {
-    unsigned int        n_joints = 28;     ///< contraction joints; the dam has n_joints + 1 monoliths
-    std::vector<double> joint_places;      ///< chainages [m], see make_arch(); empty: equal distances
-    unsigned int elements_along = 58;      ///< in total along the crest; each monolith has at least its share
-    unsigned int elements_up = 20;         ///< from the base to the crest, in the highest column
-    unsigned int elements_through = 2;     ///< from the upstream to the downstream face
-    std::vector<double> rows;              ///< ends of the rows of elements, see make_arch(); empty: equal
-    bool                equal_rows = true; ///< all columns have elements_up rows, see make_arch()
+    unsigned int        n_joints = 28; ///< contraction joints; the dam has n_joints + 1 monoliths
+    std::vector<double> joint_places;  ///< chainages [m], see make_arch(); empty: equal distances
+    unsigned int elements_along = 58;  ///< in total along the crest; each monolith has at least its share
+    unsigned int elements_up = 20;     ///< from the base to the crest, in the highest column
+    unsigned int elements_through = 2; ///< from the upstream to the downstream face
+    std::vector<double> rows;          ///< ends of the rows of elements, see make_arch(); empty: equal
+    bool                equal_rows = false;  ///< all columns have elements_up rows, see make_arch()
     double              end_wall_height = 0; ///< depth of the abutment below the two ends of the crest [m]
     bool                base_joint = false;  ///< the base is a joint
     unsigned int        lift_joints = 0;     ///< in each monolith, between rows of elements
