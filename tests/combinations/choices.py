@@ -51,7 +51,8 @@ def scales(laws, loads):
 
     return {
         "mesh": {"arch210": {}, "arcs": {"Mesh/Source": "arcs", "Mesh/Arcs/Table": "arcs.csv"}, "file": {"Mesh/Source": "file", "Mesh/File": "own.msh"}},
-        **values("Mesh/GRID/Joints", "2", "0", "3"), **values("Mesh/GRID/Elements through", "1", "2"), **values("Elements/Degree", "1", "2"),
+        **values("Mesh/GRID/Joints", "2", "0", "3"), **values("Mesh/GRID/Equal rows", "false", "true"),
+        **values("Mesh/GRID/Elements through", "1", "2"), **values("Elements/Degree", "1", "2"),
         "base joint": {"none": {}, **{law: {"Joints/Overrides": f"base: {law}", "Mesh/GRID/Base joint": "true"} for law in laws}},
         "lift joints": {"none": {}, **{law: {"Joints/Overrides": f"lift: {law}", "Mesh/GRID/Lift joints": "1"} for law in laws}},
         "joint 1": {"as all": {}, "tied": {"Joints/Overrides": "1: tied"}},

@@ -474,7 +474,7 @@ def shakes(s):
 ALWAYS = (energy, numbers, facts)
 RARE = (report,)  # some scenes suffice
 RELATIONS = {
-    report: lambda s: True, repeated: lambda s: True, threads: lambda s: True, ranks: lambda s: True, printed: lambda s: True,
+    report: lambda s: True, repeated: lambda s: True, threads: lambda s: True, ranks: lambda s: s["Dynamics/Scheme"] != "explicit", printed: lambda s: True,
     without_effect: lambda s: True, exported: has_mesh_file, shuffled: has_mesh_file, needs_rows: lambda s: True,
     resumed: shakes, at_rest: shakes,
     mirrored: lambda s: has_mesh_file(s) and is_numbered(s) and s["limits"] != "wedges",  # a wedge has one bank
