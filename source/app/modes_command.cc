@@ -239,6 +239,28 @@ namespace Voussoir
                                       .add_list("damping", monolith.ratio));
       return json;
     }
+    void print_table(const std::vector<NaturalMode> &modes, const std::vector<double> &radiation,
+                     const ModesDamping &damping, const FreeMonolith &monolith)
+    {
+      std::printf("mode  frequency [Hz]  damping [%%]%s\n",
+                  radiation.empty() ? "" : "  of it by the water [%]");
+      for (std::size_t i = 0; i < modes.size(); ++i)
+      {
+        const double of_water = radiation.empty() || std::isnan(radiation[i]) ? 0. : radiation[i];
+        std::printf("%4zu  %10.5f  %16.3f", i + 1, modes[i].frequency, 100. * (damping.ratio(i) + of_water));
+        if (!radiation.empty() && std::isnan(radiation[i]))
+          std::printf("  %20s", "not found");
+        else if (!radiation.empty())
+          std::printf("  %20.3f", 100. * of_water);
+        std::printf("\n");
+      }
+      std::printf("Damping   %s\n", damping.in_words().c_str());
+      for (std::size_t i = 0; i < monolith.frequency.size(); ++i)
+        std::printf("%s%.4g Hz (%.2f %%)%s",
+                    i == 0 ? ("Free      " + monolith.name + " between open joints: ").c_str() : ", ",
+                    monolith.frequency[i], 100. * monolith.ratio[i],
+                    i + 1 == monolith.frequency.size() ? "\n" : "");
+    }
   } // namespace
 
   std::vector<double> first_frequencies(Scene scene)
@@ -289,24 +311,7 @@ namespace Voussoir
       std::printf("%s\n", json_of(dam, table, damping, radiation, monolith).text().c_str());
     else
     {
-      std::printf("mode  frequency [Hz]  damping [%%]%s\n",
-                  radiation.empty() ? "" : "  of it by the water [%]");
-      for (std::size_t i = 0; i < modes.size(); ++i)
-      {
-        const double of_water = radiation.empty() || std::isnan(radiation[i]) ? 0. : radiation[i];
-        std::printf("%4zu  %10.5f  %16.3f", i + 1, modes[i].frequency, 100. * (damping.ratio(i) + of_water));
-        if (!radiation.empty() && std::isnan(radiation[i]))
-          std::printf("  %20s", "not found");
-        else if (!radiation.empty())
-          std::printf("  %20.3f", 100. * of_water);
-        std::printf("\n");
-      }
-      std::printf("Damping   %s\n", damping.in_words().c_str());
-      for (std::size_t i = 0; i < monolith.frequency.size(); ++i)
-        std::printf("%s%.4g Hz (%.2f %%)%s",
-                    i == 0 ? ("Free      " + monolith.name + " between open joints: ").c_str() : ", ",
-                    monolith.frequency[i], 100. * monolith.ratio[i],
-                    i + 1 == monolith.frequency.size() ? "\n" : "");
+      print_table(modes, radiation, damping, monolith);
       if (!directory.empty())
         print_masses(table);
     }

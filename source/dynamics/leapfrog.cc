@@ -80,6 +80,7 @@ namespace Voussoir
                        " s. Set it to at most " + number_text(share_of_critical * critical) + ", or to -1.");
     n_steps = std::ceil(dt / (step > 0. ? step : share_of_critical * critical) - 1e-9);
     h = dt / n_steps;
+    gain = h / (1. + .5 * h * structure.damping.mass);
     std::size_t at = 0;
     for (const JointLaw *law : laws.of_pair)
     {
@@ -152,7 +153,7 @@ namespace Voussoir
   /** Computes the velocity at the end of a step without joint forces, at a @p share of the way between both loads. */
   void Leapfrog::predict(const double share, const Unknowns &load)
   {
-    const double a = .5 * h * structure.damping.mass, keep = (1. - a) / (1. + a), gain = h / (1. + a);
+    const double a = .5 * h * structure.damping.mass, keep = (1. - a) / (1. + a);
     next.resize(now.u.size());
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < static_cast<int>(structure.n_nodes()); ++i)
@@ -184,83 +185,91 @@ namespace Voussoir
     return f;
   }
 
+  /** Returns the gap of a pair at the end of the step with the velocity #next [m]. */
+  Vector3 Leapfrog::predicted(const std::size_t p) const
+  {
+    const Vector3 rate = structure.jump(structure.pairs[p], next);
+    Vector3       b = get(gap, p);
+    for (unsigned int c = 0; c < 3; ++c)
+      b[c] += h * rate[c];
+    return b;
+  }
+
+  PairHistory Leapfrog::history_of(const std::size_t p) const
+  {
+    PairHistory history(get(gap, p));
+    history.area = structure.pairs[p].area;
+    history.is_mean = true;
+    history.memory = now.memory.data() + memory_begin[p];
+    return history;
+  }
+
+  /** Adds the impulse of a joint force to #next. */
+  void Leapfrog::apply(const std::size_t p, const Vector3 &f)
+  {
+    set(pair_force, p, f);
+    clusters.add_impulse(structure.pairs[p], {{gain * f[0], gain * f[1], gain * f[2]}}, next);
+    for (unsigned int c = 0; c < 3; ++c)
+      impulse[3 * p + c] += h * f[c];
+  }
+
+  /** Solves the joint laws of a cluster by Gauss-Seidel iterations. Returns their number. */
+  unsigned int Leapfrog::solve_cluster(const PairClusters::Cluster &cluster)
+  {
+    const std::size_t        n = cluster.pairs.size();
+    std::vector<Vector3>     b, f;
+    std::vector<PairHistory> history;
+    for (const unsigned int p : cluster.pairs)
+    {
+      b.push_back(predicted(p));
+      f.push_back(get(pair_force, p));
+      history.push_back(history_of(p));
+    }
+    unsigned int sweep = 0;
+    for (double change = 1., size = 0.; sweep < most_sweeps && change > enough * size; ++sweep)
+    {
+      change = size = 0.;
+      for (std::size_t i = 0; i < n; ++i)
+      {
+        Vector3 y = b[i];
+        for (std::size_t j = 0; j < n; ++j)
+          if (j != i)
+            add(y, scaled(cluster.between(i, j), gain * h) * f[j]);
+        const Vector3 fresh =
+            solve_pair(cluster.pairs[i], scaled(cluster.between(i, i), gain * h), y, history[i]);
+        change = std::max(change, norm(fresh - f[i]));
+        size = std::max(size, norm(fresh));
+        f[i] = fresh;
+      }
+    }
+    if (sweep == most_sweeps)
+      throw ComputationError(
+          "The joint forces where joints cross did not converge at t = " + number_text(now.time) +
+          " s. Reduce \"Dynamics/Explicit step\", or set \"Dynamics/Scheme\" to trapezoidal.");
+    for (std::size_t i = 0; i < n; ++i)
+      apply(cluster.pairs[i], f[i]);
+    return sweep;
+  }
+
   /** Solves the joint laws of all pairs, adds their impulses to #next, and commits the history variables. */
   void Leapfrog::solve_joints(const bool is_last, ContactResult &result)
   {
-    const double gain = h / (1. + .5 * h * structure.damping.mass);
-    const auto   predicted = [&](const std::size_t p)
-    {
-      const Vector3 rate = structure.jump(structure.pairs[p], next);
-      Vector3       b = get(gap, p);
-      for (unsigned int c = 0; c < 3; ++c)
-        b[c] += h * rate[c];
-      return b;
-    };
-    const auto history_of = [&](const std::size_t p)
-    {
-      PairHistory history(get(gap, p));
-      history.area = structure.pairs[p].area;
-      history.is_mean = true;
-      history.memory = now.memory.data() + memory_begin[p];
-      return history;
-    };
-    const auto finish = [&](const std::size_t p, const Vector3 &f)
-    {
-      set(pair_force, p, f);
-      clusters.add_impulse(structure.pairs[p], {{gain * f[0], gain * f[1], gain * f[2]}}, next);
-      for (unsigned int c = 0; c < 3; ++c)
-        impulse[3 * p + c] += h * f[c];
-    };
     for_each_in_chunks(clusters.single.size(),
                        [&](const std::size_t i)
                        {
                          const unsigned int p = clusters.single[i];
                          PairHistory        history = history_of(p);
-                         finish(p,
-                                solve_pair(p, scaled(clusters.of_pair(p), gain * h), predicted(p), history));
+                         apply(p,
+                               solve_pair(p, scaled(clusters.of_pair(p), gain * h), predicted(p), history));
                        });
     for (const auto &cluster : clusters.clusters)
-    {
-      const std::size_t        n = cluster.pairs.size();
-      std::vector<Vector3>     b, f;
-      std::vector<PairHistory> history;
-      for (const unsigned int p : cluster.pairs)
-      {
-        b.push_back(predicted(p));
-        f.push_back(get(pair_force, p));
-        history.push_back(history_of(p));
-      }
-      unsigned int sweep = 0;
-      for (double change = 1., size = 0.; sweep < most_sweeps && change > enough * size; ++sweep)
-      {
-        change = size = 0.;
-        for (std::size_t i = 0; i < n; ++i)
-        {
-          Vector3 y = b[i];
-          for (std::size_t j = 0; j < n; ++j)
-            if (j != i)
-              add(y, scaled(cluster.between(i, j), gain * h) * f[j]);
-          const Vector3 fresh =
-              solve_pair(cluster.pairs[i], scaled(cluster.between(i, i), gain * h), y, history[i]);
-          change = std::max(change, norm(fresh - f[i]));
-          size = std::max(size, norm(fresh));
-          f[i] = fresh;
-        }
-      }
-      if (sweep == most_sweeps)
-        throw ComputationError(
-            "The joint forces where joints cross did not converge at t = " + number_text(now.time) +
-            " s. Reduce \"Dynamics/Explicit step\", or set \"Dynamics/Scheme\" to trapezoidal.");
-      result.sweeps = std::max(result.sweeps, sweep);
-      for (std::size_t i = 0; i < n; ++i)
-        finish(cluster.pairs[i], f[i]);
-    }
+      result.sweeps = std::max(result.sweeps, solve_cluster(cluster));
     const auto commit = [&](const std::size_t p)
     {
-      const JointLaw &law = *laws.of_pair[p];
-      const Vector3   at = predicted(p), f = get(pair_force, p); // the gap at the end
-      set(gap_after, p, at);
+      const JointLaw   &law = *laws.of_pair[p];
+      const Vector3     at = predicted(p), f = get(pair_force, p); // the gap at the end
       const PairHistory history = history_of(p);
+      set(gap_after, p, at);
       if (is_last)
       {
         PairEquations equations;

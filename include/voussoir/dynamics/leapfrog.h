@@ -40,16 +40,21 @@ namespace Voussoir
     {
       double input = 0., damping = 0., opening = 0., friction = 0.;
     };
-    void    predict(double share, const Unknowns &load);
-    void    solve_joints(bool is_last, ContactResult &result);
-    Vector3 solve_pair(std::size_t p, const Matrix3 &H, const Vector3 &b, PairHistory &history);
-    void    add_work_of_joints(Work &work) const;
-    void    move(double share, const Unknowns &load, bool is_last, Work &work);
-    void    account(const Unknowns &u, const Unknowns &Ku, double relaxed);
+    void         predict(double share, const Unknowns &load);
+    Vector3      predicted(std::size_t p) const;
+    PairHistory  history_of(std::size_t p) const;
+    void         apply(std::size_t p, const Vector3 &f);
+    unsigned int solve_cluster(const PairClusters::Cluster &cluster);
+    void         solve_joints(bool is_last, ContactResult &result);
+    Vector3      solve_pair(std::size_t p, const Matrix3 &H, const Vector3 &b, PairHistory &history);
+    void         add_work_of_joints(Work &work) const;
+    void         move(double share, const Unknowns &load, bool is_last, Work &work);
+    void         account(const Unknowns &u, const Unknowns &Ku, double relaxed);
 
     const double             dt;
     double                   critical = 0., h = 0.; ///< [s]
-    unsigned int             n_steps = 0;           ///< steps h in dt
+    double                   gain = 0.;   ///< change of momentum per force, with the damping of the mass [s]
+    unsigned int             n_steps = 0; ///< steps h in dt
     const PairClusters       clusters;
     std::vector<PairState>   states;
     SystemTimes              spent;
