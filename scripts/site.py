@@ -26,7 +26,7 @@ NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.
                "tutorials/7_report", "messages", "report", "parallel"),
     "Reference": ("input_file", "parameters", "output", "mesh", "loads", "studies", "python", "base_joints", "lift_joints", "wedges",
                   "generated/refused_pairs", "glossary", "changes"),
-    "Theory": ("method", "water", "keys", "rock", "boundary"),
+    "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
     "Evidence": ("verification", "accuracy", "contact", "performance", "paper", "rigid_base", "failures"),
     "Develop": ("CONTRIBUTING", "tutorials/5_own_law", "release"),
 }

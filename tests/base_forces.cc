@@ -4,7 +4,7 @@
 // Usage: base_forces rigid|rock|wall|equilibrium|wedge_files
 
 #include <voussoir/dam/base_force.h>
-#include <voussoir/dynamics/newmark.h>
+#include <voussoir/dynamics/integrator_table.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/solid/solid_grid.h>
@@ -202,10 +202,12 @@ namespace
       for (std::size_t k = 0; k < steady.size(); ++k)
         steady[k] += load.force[k];
     dam.foundation->start(motion, grid, zero);
-    Newmark    newmark(dam.structure, dam.layout.laws, scene.contact, dt, ImpactRule::mean_force,
-                       dam.foundation->support(dam.structure));
-    const bool moves = dam.foundation->moves_base();
-    const auto load_at = [&](const unsigned int k)
+    const auto owner =
+        make_integrator(scene.scheme, {dam.structure, dam.layout.laws, scene.contact, dt,
+                                       ImpactRule::mean_force, dam.foundation->support(dam.structure)});
+    Integrator &newmark = *owner;
+    const bool  moves = dam.foundation->moves_base();
+    const auto  load_at = [&](const unsigned int k)
     {
       Unknowns load = steady;
       for (std::size_t i = 0; moves && i < load.size(); ++i)
@@ -230,7 +232,9 @@ namespace
       Vector3             ground{}, velocity{};
       for (unsigned int c = 0; c < 3; ++c)
       {
-        ground[c] = moves ? .5 * (motion.acceleration[k - 1][c] + motion.acceleration[k][c]) : 0.;
+        const double weight = newmark.weight_of_end();
+        ground[c] =
+            moves ? (1. - weight) * motion.acceleration[k - 1][c] + weight * motion.acceleration[k][c] : 0.;
         velocity[c] = .5 * (before.base_velocity[c] + after.base_velocity[c]);
       }
       Unknowns a(zero), f = newmark.impulses();
@@ -335,6 +339,9 @@ namespace
     scene.damping.model = "uniform";
     scene.damping.reference_frequency = 2.;
     below("uniform damping", momentum(scene, true), 1e-11);
+    scene.scheme = "explicit";
+    below("explicit scheme with steps of its own", momentum(scene, true, .04), 1e-11);
+    scene.scheme = "trapezoidal";
     scene.reservoir.density = 0.;
     scene.damping.ratio = 0.;
     below("no water, no damping", momentum(scene, true), 1e-11);

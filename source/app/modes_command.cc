@@ -47,11 +47,10 @@ namespace Voussoir
       if (!dam.water)
         return natural_modes(dam.structure, count);
       const WaterModel water = dam.water->model_for(0.);
-      std::cerr << "voussoir: warning: effective masses are those of the concrete, without the water.\n";
-      const bool is_compressible = dam.scene.reservoir.is_acoustic();
-      auto       modes = natural_modes(dam.structure, is_compressible ? count + 4 : count, 1000,
-                                       [&](const Unknowns &x, Unknowns &y)
-                                       { dam.water->add_incompressible_mass(water, x, y); });
+      const bool       is_compressible = dam.scene.reservoir.is_acoustic();
+      auto             modes = natural_modes(dam.structure, is_compressible ? count + 4 : count, 1000,
+                                             [&](const Unknowns &x, Unknowns &y)
+                                             { dam.water->add_incompressible_mass(water, x, y); });
       if (is_compressible)
         radiation = make_compressible(*dam.water, water, modes, count);
       std::string missing;
@@ -152,11 +151,12 @@ namespace Voussoir
         return std::any_of(joints.begin(), joints.end(),
                            [&](const Joint &joint) { return joint.kind() == kind; });
       };
-      if (!has("contraction") || has("lift") || scene.joints.model == "tied" ||
+      const auto is_tied = [&](const Joint &joint)
+      { return joint.kind() == "contraction" && scene.joints.model_of(joint) == "tied"; };
+      if (!has("contraction") || has("lift") || std::any_of(joints.begin(), joints.end(), is_tied) ||
           (scene.mesh.source == "file" && scene.foundation.model != "rigid"))
         return result;
       scene.foundation.model = "rigid";
-      scene.joints.overrides.clear();
       if (has("base"))
         scene.joints.overrides["base"] = "tied";
       scene.joints.gaps.clear();
@@ -195,17 +195,19 @@ namespace Voussoir
 
     /** Returns a warning if the first mode of the free-standing monolith has more than twice or less than half of the
      * ratio, or an empty string. */
-    std::string warning_of(const FreeMonolith &monolith, const double ratio)
+    std::string warning_of(const FreeMonolith &monolith, const DampingParameters &damping)
     {
-      if (monolith.ratio.empty() || (monolith.ratio[0] <= 2. * ratio && monolith.ratio[0] >= .5 * ratio))
+      const double ratio = damping.ratio;
+      if (monolith.ratio.empty() || damping.mass_coefficient >= 0. ||
+          (monolith.ratio[0] <= 2. * ratio && monolith.ratio[0] >= .5 * ratio))
         return "";
       std::ostringstream text;
       text.precision(3);
-      text
-          << monolith.name << " between open joints has a damping ratio of " << 100. * monolith.ratio[0]
-          << " % in its first mode (" << monolith.frequency[0] << " Hz), \"Damping/Ratio\" is "
-          << 100. * ratio
-          << " %. Openings depend on it: change \"Damping/Frequency 1\", or set \"Damping/Model\" to uniform.";
+      text << monolith.name << " between open joints has a damping ratio of " << 100. * monolith.ratio[0]
+           << " % in its first mode (" << monolith.frequency[0] << " Hz), \"Damping/Ratio\" is "
+           << 100. * ratio << " %. Openings depend on it: "
+           << (damping.is_uniform() ? "reduce \"Damping/Band begin\"."
+                                    : "change \"Damping/Frequency 1\", or set \"Damping/Model\" to uniform.");
       return text.str();
     }
 
@@ -224,7 +226,7 @@ namespace Voussoir
       for (const std::string &warning : dam.facts.warnings)
         warnings.push_back({Warning::Kind::physics, warning, ""});
       warnings.insert(warnings.end(), dam.scene.warnings.begin(), dam.scene.warnings.end());
-      for (const std::string &warning : {damping.warning(), warning_of(monolith, dam.scene.damping.ratio)})
+      for (const std::string &warning : {damping.warning(), warning_of(monolith, dam.scene.damping)})
         if (!warning.empty())
           warnings.push_back({Warning::Kind::physics, warning, ""});
       Json json;
@@ -301,7 +303,9 @@ namespace Voussoir
     const Dam dam(scene, true);
     for (const std::string &warning : dam.facts.warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
-    std::vector<double>            radiation;
+    std::vector<double> radiation;
+    if (dam.water)
+      std::cerr << "voussoir: warning: effective masses are those of the concrete, without the water.\n";
     const std::vector<NaturalMode> modes = modes_of(dam, count, radiation);
     const Table                    table = table_of(modes, radiation, dam.structure);
     const ModesDamping             damping(scene.damping, modes, dam.structure);
@@ -316,7 +320,7 @@ namespace Voussoir
         print_masses(table);
     }
     std::fflush(stdout);
-    for (const std::string &warning : {damping.warning(), warning_of(monolith, scene.damping.ratio)})
+    for (const std::string &warning : {damping.warning(), warning_of(monolith, scene.damping)})
       if (!warning.empty())
         std::cerr << "voussoir: warning: " << warning << "\n";
     if (spectrum)

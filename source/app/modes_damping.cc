@@ -77,6 +77,8 @@ namespace Voussoir
   {
     if (damping.is_uniform())
       return damping.warning();
+    if (damping.mass_coefficient >= 0.)
+      return "";
     std::size_t n_off = 0, worst = 0;
     double      largest = 0.;
     for (std::size_t k = 0; k < n_modes && damping.ratio > 0.; ++k)

@@ -316,9 +316,9 @@ namespace Voussoir
                Ranks::size() > 1 ? " on the first rank" : "");
     for (Neighbour *neighbour : dam.neighbours)
       neighbour->update_from_dam(integrator.state());
-    state.acceleration =
-        mean_acceleration(v_before, integrator.state().v, state.motion.dt,
-                          state.ground_acceleration(state.step), state.ground_acceleration(state.step + 1));
+    state.acceleration = mean_acceleration(
+        v_before, integrator.state().v, state.motion.dt, state.ground_acceleration(state.step),
+        state.ground_acceleration(state.step + 1), integrator.weight_of_end());
     ++state.step;
     return result;
   }

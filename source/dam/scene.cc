@@ -402,11 +402,12 @@ namespace Voussoir
     mesh.add_choices(foundation_reads(foundation.model, "Foundation/Young's modulus"), choices);
     if (elements.degree == 1)
       choices.add("numerics", "elements of degree 2", "Elements/Degree", 2.);
-    choices.add("numerics", "half the time step", "Dynamics/Steps per sample", 2. * steps_per_sample);
-    if (steps_per_sample % 2 == 0)
+    if (scheme != "explicit")
+      choices.add("numerics", "half the time step", "Dynamics/Steps per sample", 2. * steps_per_sample);
+    if (scheme != "explicit" && steps_per_sample % 2 == 0)
       choices.add("numerics", "twice the time step", "Dynamics/Steps per sample", .5 * steps_per_sample,
                   true);
-    if (!has_single_factors())
+    if (!has_single_factors() && scheme != "explicit")
       choices.add("numerics", "factors in single precision", {{"Dynamics/Factors", "single"}}, true);
     contact.add_choices(choices);
     const auto refused = [&](const ModelChoice &choice) // by check()
@@ -508,7 +509,7 @@ namespace Voussoir
       if (reservoir.is_meshed())
         refuse("has no " + reservoir.model +
                " water. Set \"Reservoir/Model\" to an added mass, such as Westergaard");
-      if (explicit_step == 0.)
+      if (!(explicit_step > 0. || explicit_step == -1.))
         refuse("requires a step. Set \"Dynamics/Explicit step\" to -1");
       if (impact_rule != "mean-force" || contact.write_problems)
         refuse("has no rule of impact and no contact problems. Set \"Dynamics/Impact\" to mean-force and "

@@ -17,11 +17,11 @@ namespace Voussoir
   } // namespace
 
   Unknowns mean_acceleration(const Unknowns &v_before, const Unknowns &v, const double dt,
-                             const Vector3 &ground_before, const Vector3 &ground)
+                             const Vector3 &ground_before, const Vector3 &ground, const double weight)
   {
     Unknowns a(v.size());
     for (std::size_t k = 0; k < v.size(); ++k)
-      a[k] = (v[k] - v_before[k]) / dt + .5 * (ground_before[k % 3] + ground[k % 3]);
+      a[k] = (v[k] - v_before[k]) / dt + (1. - weight) * ground_before[k % 3] + weight * ground[k % 3];
     return a;
   }
 

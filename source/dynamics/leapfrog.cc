@@ -18,7 +18,8 @@ namespace Voussoir
   {
     constexpr double       share_of_critical = .95;
     constexpr unsigned int most_sweeps = 2000, most_events = 8;
-    constexpr double       enough = 1e-9; ///< relative change of the forces of a cluster
+    constexpr double       most_steps = 1e5; ///< in a time step
+    constexpr double       enough = 1e-9;    ///< relative change of the forces of a cluster
 
     Matrix3 scaled(const Matrix3 &a, const double factor)
     {
@@ -36,15 +37,13 @@ namespace Voussoir
 
     void check(const Structure &structure)
     {
-      if (structure.damping.stiffness > 0.)
-        throw InputError(
-            "\"Dynamics/Scheme\" = explicit has no stiffness-proportional damping, which would require a step "
-            "of about 0.02 ms. Set \"Damping/Model\" to uniform, or \"Damping/Stiffness coefficient\" to 0 "
-            "(and \"Mass coefficient\").");
       if (Ranks::size() > 1)
         throw InputError(
             "\"Dynamics/Scheme\" = explicit runs in one process. Use threads (OMP_NUM_THREADS).");
-      ensure(structure.dashpots.empty(), "The leapfrog rule has no dashpots.");
+      ensure(!(structure.damping.stiffness > 0.) && structure.dashpots.empty(),
+             "The leapfrog rule has no damping by the stiffness and no dashpots.");
+      for (const Body &body : structure.bodies)
+        ensure(body.reacting.empty(), "The leapfrog rule has no reactions of water.");
     }
   } // namespace
 
@@ -78,7 +77,13 @@ namespace Voussoir
       throw InputError("Entry \"Dynamics/Explicit step\" = " + number_text(step) +
                        " s is above the critical step of the dam, " + number_text(critical) +
                        " s. Set it to at most " + number_text(share_of_critical * critical) + ", or to -1.");
-    n_steps = std::ceil(dt / (step > 0. ? step : share_of_critical * critical) - 1e-9);
+    const double wanted = step > 0. ? step : share_of_critical * critical;
+    if (!(dt / wanted < most_steps))
+      throw InputError("Entry \"Dynamics/Explicit step\" = " + number_text(step) + " s: steps of " +
+                       number_text(wanted) + " s divide a time step into more than " +
+                       number_text(most_steps) + " parts (critical step " + number_text(critical) +
+                       " s). Increase the step, or mend the mesh.");
+    n_steps = std::ceil(dt / wanted - 1e-9);
     h = dt / n_steps;
     gain = h / (1. + .5 * h * structure.damping.mass);
     std::size_t at = 0;
@@ -118,15 +123,16 @@ namespace Voussoir
       set(gap_before, p, structure.jump(structure.pairs[p], before) - get(reference, p));
     }
     impulse.assign(3 * structure.pairs.size(), 0.);
+    const Unknowns u_start = now.u;
+    mean.assign(now.u.size(), 0.);
     const double end = now.time + dt;
     for (unsigned int k = 0; k < n_steps; ++k)
     {
       Work work;
       predict(double(k) / n_steps, load);
       Stopwatch joints;
-      solve_joints(k + 1 == n_steps, result);
+      solve_joints(k + 1 == n_steps, result, work);
       spent.joints += joints.seconds();
-      add_work_of_joints(work);
       move(double(k) / n_steps, load, k + 1 == n_steps, work);
       if (!std::isfinite(work.input))
         throw ComputationError(
@@ -137,6 +143,9 @@ namespace Voussoir
       now.energy.friction += work.friction;
       now.energy.impact += work.opening;
     }
+    for (std::size_t k = 0; k < mean.size(); ++k)
+      mean[k] -= .5 * (u_start[k] + now.u[k]);
+    now.relaxation.mean = mean;
     now.load = load;
     now.time = end;
     for (std::size_t k = 0; k < impulse.size(); ++k)
@@ -162,6 +171,7 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
+        mean[k] += (now.u[k] + structure.damping.more_displacement(now.relaxation, now.u[k], k)) / n_steps;
         f[c] = (1. - share) * now.load[k] + share * load[k] - now.Ku[k] -
                structure.damping.more_force(now.relaxation, now.Ku[k], k);
       }
@@ -171,18 +181,14 @@ namespace Voussoir
     }
   }
 
-  Vector3 Leapfrog::solve_pair(const std::size_t p, const Matrix3 &H, const Vector3 &b, PairHistory &history)
+  /** Applies an event to the pair if its utilisation exceeds 1. Returns whether it did. */
+  bool Leapfrog::apply_event(const std::size_t p, const Vector3 &force, const Vector3 &at, const double limit)
   {
     const JointLaw &law = *laws.of_pair[p];
-    Vector3         f{};
-    for (unsigned int event = 0; event < most_events; ++event)
-    {
-      f = law.solve(H, b, history);
-      if (law.n_memory() == 0 || law.utilisation(f, sum_of(H * f, b), history) <= 1.)
-        break;
-      law.apply_event(now.memory.data() + memory_begin[p], JointEvent::limit);
-    }
-    return f;
+    if (law.n_memory() == 0 || law.utilisation(force, at, history_of(p)) <= limit)
+      return false;
+    law.apply_event(now.memory.data() + memory_begin[p], JointEvent::limit);
+    return true;
   }
 
   /** Returns the gap of a pair at the end of the step with the velocity #next [m]. */
@@ -213,30 +219,28 @@ namespace Voussoir
       impulse[3 * p + c] += h * f[c];
   }
 
-  /** Solves the joint laws of a cluster by Gauss-Seidel iterations. Returns their number. */
-  unsigned int Leapfrog::solve_cluster(const PairClusters::Cluster &cluster)
+  /** Solves the joint laws of a cluster for fixed history variables by Gauss-Seidel iterations. @p f: first guess of the
+   * forces, receives the result. @p at: receives the gaps. Returns the number of iterations. */
+  unsigned int Leapfrog::solve_cluster(const PairClusters::Cluster &cluster, const std::vector<Vector3> &b,
+                                       std::vector<Vector3> &f, std::vector<Vector3> &at) const
   {
-    const std::size_t        n = cluster.pairs.size();
-    std::vector<Vector3>     b, f;
-    std::vector<PairHistory> history;
-    for (const unsigned int p : cluster.pairs)
+    const auto gap_without = [&](const std::size_t i, const bool own)
     {
-      b.push_back(predicted(p));
-      f.push_back(get(pair_force, p));
-      history.push_back(history_of(p));
-    }
+      Vector3 y = b[i];
+      for (std::size_t j = 0; j < f.size(); ++j)
+        if (own || j != i)
+          add(y, scaled(cluster.between(i, j), gain * h) * f[j]);
+      return y;
+    };
     unsigned int sweep = 0;
     for (double change = 1., size = 0.; sweep < most_sweeps && change > enough * size; ++sweep)
     {
       change = size = 0.;
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < f.size(); ++i)
       {
-        Vector3 y = b[i];
-        for (std::size_t j = 0; j < n; ++j)
-          if (j != i)
-            add(y, scaled(cluster.between(i, j), gain * h) * f[j]);
-        const Vector3 fresh =
-            solve_pair(cluster.pairs[i], scaled(cluster.between(i, i), gain * h), y, history[i]);
+        const unsigned int p = cluster.pairs[i];
+        const Vector3      fresh = laws.of_pair[p]->solve(scaled(cluster.between(i, i), gain * h),
+                                                          gap_without(i, false), history_of(p));
         change = std::max(change, norm(fresh - f[i]));
         size = std::max(size, norm(fresh));
         f[i] = fresh;
@@ -246,30 +250,61 @@ namespace Voussoir
       throw ComputationError(
           "The joint forces where joints cross did not converge at t = " + number_text(now.time) +
           " s. Reduce \"Dynamics/Explicit step\", or set \"Dynamics/Scheme\" to trapezoidal.");
-    for (std::size_t i = 0; i < n; ++i)
-      apply(cluster.pairs[i], f[i]);
+    for (std::size_t i = 0; i < f.size(); ++i)
+      at[i] = gap_without(i, true);
     return sweep;
   }
 
+  /** Solves a cluster; as long as a pair exceeds its limit, the pairs with the largest utilisations get an event. Returns
+   * the number of iterations. */
+  unsigned int Leapfrog::solve_with_events(const PairClusters::Cluster &cluster)
+  {
+    std::vector<Vector3> b, f, at;
+    for (const unsigned int p : cluster.pairs)
+    {
+      b.push_back(predicted(p));
+      f.push_back(get(pair_force, p));
+    }
+    at = b;
+    unsigned int sweeps = 0;
+    for (std::size_t event = 0, changed = 1; event < most_events * f.size() && changed > 0; ++event)
+    {
+      sweeps += solve_cluster(cluster, b, f, at);
+      double largest = 1.;
+      for (std::size_t i = 0; i < f.size(); ++i)
+        if (const unsigned int p = cluster.pairs[i]; laws.of_pair[p]->n_memory() > 0)
+          largest = std::max(largest, laws.of_pair[p]->utilisation(f[i], at[i], history_of(p)));
+      changed = 0;
+      for (std::size_t i = 0; largest > 1. && i < f.size(); ++i)
+        changed += apply_event(cluster.pairs[i], f[i], at[i], std::max(1., .9 * largest));
+    }
+    for (std::size_t i = 0; i < f.size(); ++i)
+      apply(cluster.pairs[i], f[i]);
+    return sweeps;
+  }
+
   /** Solves the joint laws of all pairs, adds their impulses to #next, and commits the history variables. */
-  void Leapfrog::solve_joints(const bool is_last, ContactResult &result)
+  void Leapfrog::solve_joints(const bool is_last, ContactResult &result, Work &work)
   {
     for_each_in_chunks(clusters.single.size(),
                        [&](const std::size_t i)
                        {
                          const unsigned int p = clusters.single[i];
-                         PairHistory        history = history_of(p);
-                         apply(p,
-                               solve_pair(p, scaled(clusters.of_pair(p), gain * h), predicted(p), history));
+                         const Matrix3      H = scaled(clusters.of_pair(p), gain * h);
+                         const Vector3      b = predicted(p);
+                         Vector3            f = laws.of_pair[p]->solve(H, b, history_of(p));
+                         for (unsigned int event = 0;
+                              event < most_events && apply_event(p, f, sum_of(H * f, b), 1.); ++event)
+                           f = laws.of_pair[p]->solve(H, b, history_of(p));
+                         apply(p, f);
                        });
     for (const auto &cluster : clusters.clusters)
-      result.sweeps = std::max(result.sweeps, solve_cluster(cluster));
+      result.sweeps = std::max(result.sweeps, solve_with_events(cluster));
     const auto commit = [&](const std::size_t p)
     {
       const JointLaw   &law = *laws.of_pair[p];
-      const Vector3     at = predicted(p), f = get(pair_force, p); // the gap at the end
+      const Vector3     at = get(gap_after, p), f = get(pair_force, p);
       const PairHistory history = history_of(p);
-      set(gap_after, p, at);
       if (is_last)
       {
         PairEquations equations;
@@ -279,6 +314,9 @@ namespace Voussoir
       if (law.n_memory() > 0)
         law.commit(f, at, history, now.memory.data() + memory_begin[p]);
     };
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      set(gap_after, p, predicted(p));
+    add_work_of_joints(work);
     for_each_in_chunks(structure.pairs.size(), commit);
   }
 
@@ -288,6 +326,12 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         (c == 0 ? work.opening : work.friction) -=
             pair_force[3 * p + c] * .5 * (gap_after[3 * p + c] - gap_before[3 * p + c]);
+    if (!laws.have_seats())
+      return;
+    const double elastic =
+        laws.friction_correction(gap, true, pair_force, gap_after, now.memory); // see PairLaws
+    work.friction += elastic;
+    work.opening -= elastic;
   }
 
   /** Sets the kinetic and the strain energies of the middle of a step to @p u. @p relaxed: see Damping::Energies. */

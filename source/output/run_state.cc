@@ -28,9 +28,10 @@ namespace Voussoir
       for (Neighbour *neighbour : dam->neighbours)
         neighbour->start(motion, grid(), statics.u);
     Support *const support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
-    integrator = make_integrator(scene().scheme, {dam->structure, dam->layout.laws, parameters, motion.dt,
-                                                  impact_rule(scene().impact_rule), support,
-                                                  scene().has_single_factors(), scene().explicit_step});
+    integrator = make_integrator(n_steps > 0 ? scene().scheme : "trapezoidal",
+                                 {dam->structure, dam->layout.laws, parameters, motion.dt,
+                                  impact_rule(scene().impact_rule), support, scene().has_single_factors(),
+                                  scene().explicit_step});
     Unknowns load = statics.constant_load();
     if (n_steps > 0)
       add_inertia(*dam, motion.acceleration[0], load);
@@ -87,11 +88,12 @@ namespace Voussoir
     }
     const DynamicState &state = integrator->state();
     const Vector3       first = ground_acceleration(step - 1), last = ground_acceleration(step);
+    const double        weight = integrator->weight_of_end();
     Vector3             velocity, ground;
     for (unsigned int c = 0; c < 3; ++c)
     {
       velocity[c] = .5 * (base_velocity_before[c] + state.base_velocity[c]);
-      ground[c] = .5 * (first[c] + last[c]);
+      ground[c] = (1. - weight) * first[c] + weight * last[c];
     }
     Unknowns force = integrator->impulses();
     for (double &f : force)

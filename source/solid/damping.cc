@@ -218,10 +218,7 @@ namespace Voussoir
     {
       double stored = 0., dissipated = 0.;
       for (std::size_t k = begin; k < end; ++k)
-      {
-        memory.mean[k] = (modulus - 1.) * (.5 * (u_old[k] + u[k]) - memory.u_static[k]);
         stored -= .5 * (1. - modulus) * (u_old[k] - memory.u_static[k]) * (Ku[k] - memory.Ku_static[k]);
-      }
       for (std::size_t l = 0; l < c.size(); ++l)
       {
         const double r = dt / tau[l], kept = std::exp(-r), added = -std::expm1(-r) / r,
@@ -234,7 +231,6 @@ namespace Voussoir
           const double lost = .5 * share * r * d * (Kd + Kd_old);
           dissipated += lost;
           stored += .5 * share / added * d_old * Kd - lost;
-          memory.mean[k] += .5 * share * (d_old + d);
           memory.d[l][k] = d;
           memory.Kd[l][k] = Kd;
         }
@@ -261,6 +257,16 @@ namespace Voussoir
       return std::array<double, 1>{{sum}};
     };
     return sum_of_ranges<std::array<double, 1>>(u.size(), energy)[0];
+  }
+
+  double Damping::more_displacement(const DampingMemory &memory, const double u, const std::size_t k) const
+  {
+    if (!relaxes())
+      return 0.;
+    double more = (modulus - 1.) * (u - memory.u_static[k]);
+    for (std::size_t l = 0; l < c.size(); ++l)
+      more += modulus * c[l] * memory.d[l][k];
+    return more;
   }
 
   double Damping::more_force(const DampingMemory &memory, const double Ku, const std::size_t k) const

@@ -20,7 +20,7 @@ namespace Voussoir
    * @param dt length of the step [s]
    * @param ground_before, ground acceleration of the base at both times [m/s^2] */
   Unknowns mean_acceleration(const Unknowns &v_before, const Unknowns &v, double dt,
-                             const Vector3 &ground_before, const Vector3 &ground);
+                             const Vector3 &ground_before, const Vector3 &ground, double weight = .5);
 
   /** Known tractions at the nodes of the faces of a dam:
    *  - static loads and hydrodynamic pressure of the added mass on the faces upstream and downstream,

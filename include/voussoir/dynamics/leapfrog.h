@@ -25,14 +25,15 @@ namespace Voussoir
      * @param dt time step of advance() [s]
      * @param step wanted length of the steps h [s]; -1: 0.95 of the critical one. It is shortened to divide dt.
      *
-     * Throws InputError if @p step is above the critical step, and for what the scheme has not: a stiffness term of the
-     * damping, dashpots, reactions of water, and several processes. */
+     * Throws InputError if @p step is above the critical step or far below, and for what the scheme has not: a stiffness term of the
+     * damping, and several processes. Structures with dashpots or with reactions of water are not possible. */
     Leapfrog(const Structure &structure, const JointLaws &laws, double dt, double step);
 
     ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}}) override;
     const std::vector<PairState> &pair_states() const override { return states; }
     SystemTimes                   times() const override { return spent; }
     double                        memory() const override;
+    double                        weight_of_end() const override { return .5 * (n_steps - 1) / n_steps; }
     std::string                   about_steps() const override;
 
   private:
@@ -44,9 +45,11 @@ namespace Voussoir
     Vector3      predicted(std::size_t p) const;
     PairHistory  history_of(std::size_t p) const;
     void         apply(std::size_t p, const Vector3 &f);
-    unsigned int solve_cluster(const PairClusters::Cluster &cluster);
-    void         solve_joints(bool is_last, ContactResult &result);
-    Vector3      solve_pair(std::size_t p, const Matrix3 &H, const Vector3 &b, PairHistory &history);
+    bool         apply_event(std::size_t p, const Vector3 &force, const Vector3 &at, double limit);
+    unsigned int solve_cluster(const PairClusters::Cluster &cluster, const std::vector<Vector3> &b,
+                               std::vector<Vector3> &f, std::vector<Vector3> &at) const;
+    unsigned int solve_with_events(const PairClusters::Cluster &cluster);
+    void         solve_joints(bool is_last, ContactResult &result, Work &work);
     void         add_work_of_joints(Work &work) const;
     void         move(double share, const Unknowns &load, bool is_last, Work &work);
     void         account(const Unknowns &u, const Unknowns &Ku, double relaxed);
@@ -58,6 +61,7 @@ namespace Voussoir
     const PairClusters       clusters;
     std::vector<PairState>   states;
     SystemTimes              spent;
+    Unknowns                 mean;                       ///< of the displacement w over the time step [m]
     Unknowns                 next;                       ///< velocity at the end of the step h [m/s]
     Unknowns                 pair_force;                 ///< joint forces of the step h [N]
     Unknowns                 gap_before, gap, gap_after; ///< of the steps k - 1, k and k + 1 [m]

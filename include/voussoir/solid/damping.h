@@ -49,7 +49,7 @@ namespace Voussoir
   {
     Unknowns              u_static, Ku_static; ///< static state, in which the body is relaxed
     std::vector<Unknowns> d, Kd;               ///< of each mechanism: u - xi in Relaxation
-    Unknowns mean; ///< mean over the last step of what damping adds to u in the elastic forces [m]
+    Unknowns mean; ///< mean of w in Damping over the last time step, minus the mean of u at its ends [m]
   };
 
   /** Damping of the dam: Rayleigh damping C = mass M + stiffness K, and relaxation of the stiffness. The elastic force of
@@ -57,7 +57,7 @@ namespace Voussoir
    *
    *     w = u_s + modulus (u - u_s + sum_l c_l d_l),    d d_l / dt = du / dt - d_l / tau_l.
    *
-   * The memory variables d_l follow by the trapezoidal rule, so all works of a step are exact. K d_l follows from K u by
+   * The memory variables d_l follow by the rule of the time integration, so all works of a step are exact. K d_l follows from K u by
    * the same recursion, without a product with K. Without mechanisms (#c is empty), w = u. */
   struct Damping
   {
@@ -100,6 +100,9 @@ namespace Voussoir
 
     /** Returns the energy stored by the relaxing body minus u K u / 2 [J], zero in the static state. */
     double more_energy(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku) const;
+
+    /** Returns component @p k of w - u [m]. @p u: component of the displacement. */
+    double more_displacement(const DampingMemory &memory, double u, std::size_t k) const;
 
     /** Returns component @p k of K (w - u) [N]. @p Ku: component of K u. */
     double more_force(const DampingMemory &memory, double Ku, std::size_t k) const;
