@@ -89,7 +89,7 @@ def page():
     expect(all(address.startswith("data:") for address in read.addresses), "the page asks for something outside of it")
     expect("Not shown" not in read.text, read.text[-1500:])
     found = summary("limited")
-    for words in (f"{1e3 * found['extremes']['max_slip']['value']:.2f}"[:4], "Limits/Tensile strength", "exceeded", found["revision"],
+    for words in (f"{1e3 * found['extremes']['max_slip']['value']:.1f}", "Limits/Tensile strength", "exceeded", found["revision"],
                   "set Opening = 1e-06" if "set Opening = 1e-06" in read.text else "set Opening = 1e-6"):
         expect(words in read.text, f"'{words}' is not on the page")
     n_exceeded = sum(not limit["satisfied"] for limit in found["limits"].values())
