@@ -128,6 +128,8 @@ def explicit():
         ("Foundation/Model=massless", *rock, ("rigid base", "massless")), ("Foundation/Model=rock", *rock, ("rigid base",)),
         ("Reservoir/Model=acoustic", ("acoustic water",)),
         ("Dynamics/Impact=paper", ("rule of impact",)), ("Dynamics/Explicit step=0", ("Explicit step",))))
+    refused(["accuracy", "--output", "bars", *settings("Dynamics/Scheme=explicit", "Damping/Model=uniform"), "--", "scene.prm"],
+            "Dynamics/Scheme", "Explicit step")
     text = runs(*uniform, "--output", "limit")
     critical = float(re.search(r"critical step (\S+) ms", text)[1]) * 1e-3
     refuse([*uniform, "--output", "above"], ((f"Dynamics/Explicit step={1.001 * critical}", ("above the critical step", "Explicit step")),))

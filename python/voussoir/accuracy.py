@@ -351,6 +351,9 @@ def prepare(options, wish):
     entries = entries_of(options.scene, options.set)
     if entries["Motion/Source"] == "none":
         raise InputError(f"the scene {options.scene} has no motion (Motion/Source = none): there is no earthquake to chart.")
+    if entries["Dynamics/Scheme"] == "explicit":
+        raise InputError(f"the scene {options.scene} has Dynamics/Scheme = explicit, whose time error does not depend on {STEPS}. For the error of the "
+                         "mesh give --set Dynamics/Scheme=trapezoidal; for the time error compare runs with two values of Dynamics/Explicit step.")
     expect_one_record(options.scene, entries)
     if entries["Output/Envelope interval"] == "0":
         options.set.append("Output/Envelope interval=1")

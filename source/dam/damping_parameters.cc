@@ -85,19 +85,17 @@ namespace Voussoir
     }
   }
 
-  constexpr double two_pi = 6.28318530717958647693;
-
   double DampingParameters::mass_factor() const
   {
     return mass_coefficient >= 0.
                ? mass_coefficient
-               : 2. * ratio * two_pi * frequency_1 * frequency_2 / (frequency_1 + frequency_2);
+               : 2. * ratio * 2. * M_PI * frequency_1 * frequency_2 / (frequency_1 + frequency_2);
   }
 
   double DampingParameters::stiffness_factor() const
   {
     return stiffness_coefficient >= 0. ? stiffness_coefficient
-                                       : 2. * ratio / (two_pi * (frequency_1 + frequency_2));
+                                       : 2. * ratio / (2. * M_PI * (frequency_1 + frequency_2));
   }
 
   Relaxation DampingParameters::relaxation() const
@@ -113,7 +111,7 @@ namespace Voussoir
     if (!(ratio > 0.) || !(reference > 0.))
       return Damping();
     Relaxation result = relaxation();
-    result.unrelaxed = 1. / result.modulus(two_pi * reference).real();
+    result.unrelaxed = 1. / result.modulus(2. * M_PI * reference).real();
     return Damping(result);
   }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/error.h>
 #include <voussoir/base/internal_error.h>
 #include <voussoir/dynamics/integrator_table.h>
 #include <voussoir/dynamics/leapfrog.h>
@@ -19,10 +18,7 @@ namespace Voussoir
 
     std::unique_ptr<Integrator> make_leapfrog(const IntegratorInput &input)
     {
-      if (input.support)
-        throw InputError(
-            "\"Dynamics/Scheme\" = explicit requires a rigid base. Set \"Foundation/Model\" to rigid, or "
-            "\"Dynamics/Scheme\" to trapezoidal.");
+      ensure(!input.support, "The leapfrog rule requires a rigid base.");
       return std::make_unique<Leapfrog>(input.structure, input.laws, input.dt, input.explicit_step);
     }
   } // namespace

@@ -9,7 +9,6 @@
 #include <voussoir/solid/critical_step.h>
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 
 namespace Voussoir
@@ -33,6 +32,13 @@ namespace Voussoir
     {
       add(a, b);
       return a;
+    }
+
+    [[noreturn]] void throw_not_converged(const double time)
+    {
+      throw ComputationError(
+          "The joint forces where joints cross did not converge at t = " + number_text(time) +
+          " s. Reduce \"Dynamics/Explicit step\", or set \"Dynamics/Scheme\" to trapezoidal.");
     }
 
     void check(const Structure &structure)
@@ -113,7 +119,7 @@ namespace Voussoir
     ContactResult result;
     result.converged = true;
     pair_force = gap_after = gap_before = gap =
-        now.force; // anew in each step, so that a resumed run has the same bits
+        now.force; // anew in each step, so that resumed runs are bitwise identical
     Unknowns before = now.u;
     for (std::size_t k = 0; k < before.size(); ++k)
       before[k] -= h * now.v[k];
@@ -124,7 +130,7 @@ namespace Voussoir
     }
     impulse.assign(3 * structure.pairs.size(), 0.);
     const Unknowns u_start = now.u;
-    mean.assign(now.u.size(), 0.);
+    now.relaxation.mean.assign(now.u.size(), 0.);
     const double end = now.time + dt;
     for (unsigned int k = 0; k < n_steps; ++k)
     {
@@ -143,9 +149,8 @@ namespace Voussoir
       now.energy.friction += work.friction;
       now.energy.impact += work.opening;
     }
-    for (std::size_t k = 0; k < mean.size(); ++k)
-      mean[k] -= .5 * (u_start[k] + now.u[k]);
-    now.relaxation.mean = mean;
+    for (std::size_t k = 0; k < u_start.size(); ++k)
+      now.relaxation.mean[k] -= .5 * (u_start[k] + now.u[k]);
     now.load = load;
     now.time = end;
     for (std::size_t k = 0; k < impulse.size(); ++k)
@@ -171,7 +176,8 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
       {
         const std::size_t k = 3 * i + c;
-        mean[k] += (now.u[k] + structure.damping.more_displacement(now.relaxation, now.u[k], k)) / n_steps;
+        now.relaxation.mean[k] +=
+            (now.u[k] + structure.damping.more_displacement(now.relaxation, now.u[k], k)) / n_steps;
         f[c] = (1. - share) * now.load[k] + share * load[k] - now.Ku[k] -
                structure.damping.more_force(now.relaxation, now.Ku[k], k);
       }
@@ -247,9 +253,7 @@ namespace Voussoir
       }
     }
     if (sweep == most_sweeps)
-      throw ComputationError(
-          "The joint forces where joints cross did not converge at t = " + number_text(now.time) +
-          " s. Reduce \"Dynamics/Explicit step\", or set \"Dynamics/Scheme\" to trapezoidal.");
+      throw_not_converged(now.time);
     for (std::size_t i = 0; i < f.size(); ++i)
       at[i] = gap_without(i, true);
     return sweep;
@@ -267,8 +271,10 @@ namespace Voussoir
     }
     at = b;
     unsigned int sweeps = 0;
-    for (std::size_t event = 0, changed = 1; event < most_events * f.size() && changed > 0; ++event)
+    for (std::size_t event = 0, changed = 1; changed > 0; ++event)
     {
+      if (event > most_events * f.size())
+        throw_not_converged(now.time);
       sweeps += solve_cluster(cluster, b, f, at);
       double largest = 1.;
       for (std::size_t i = 0; i < f.size(); ++i)
@@ -358,8 +364,7 @@ namespace Voussoir
     now.energy.strain = energies[2] + elastic_energy + relaxed;
   }
 
-  /** Moves the state to the end of the step. All works are those of the forces in the middle of two steps, along (u(k + 1) -
-   * u(k - 1)) / 2. */
+  /** Advances the state by one step. The works are those of the forces at u(k) along (u(k + 1) - u(k - 1)) / 2. */
   void Leapfrog::move(const double share, const Unknowns &load, const bool is_last, Work &work)
   {
     const double alpha = structure.damping.mass;

@@ -12,10 +12,11 @@ namespace Voussoir
    *
    *     v(k + 1/2) = v(k - 1/2) + h M^-1 (F(k) - K w(k) + G^T f(k)),   u(k + 1) = u(k) + h v(k + 1/2).
    *
-   * The mass matrix is lumped, so each pair, or cluster of pairs that share nodes, is solved alone. w: displacement with
-   * the memory of the damping (Damping). advance() divides a time step into equal steps h below the critical one, with
-   * a load that is linear between. DynamicState::v is the velocity at the middle of the last step h, and the kinetic and
-   * strain energies are those of this time: v M v / 2 and u(k) K u(k + 1) / 2, whose balance is exact. */
+   * The mass matrix is lumped, so each pair is solved alone, and so is each cluster of pairs that share nodes. The
+   * displacement w has the memory of the damping (Damping). advance() divides a time step into equal steps h below the
+   * critical step; the load is linear in the time step. DynamicState::v is the velocity at the middle of the last step h.
+   * The kinetic and strain energies are those of this time: v M v / 2 and u(k) K u(k + 1) / 2. Their balance is exact.
+   * If advance() throws, the state is that of the step h that failed. */
   class Leapfrog : public Integrator
   {
   public:
@@ -25,8 +26,8 @@ namespace Voussoir
      * @param dt time step of advance() [s]
      * @param step wanted length of the steps h [s]; -1: 0.95 of the critical one. It is shortened to divide dt.
      *
-     * Throws InputError if @p step is above the critical step or far below, and for what the scheme has not: a stiffness term of the
-     * damping, and several processes. Structures with dashpots or with reactions of water are not possible. */
+     * Throws InputError if @p step is above the critical step or divides dt into more than 1e5 parts, and on several
+     * processes. The structure must have no stiffness term of the damping, dashpots or reactions of water. */
     Leapfrog(const Structure &structure, const JointLaws &laws, double dt, double step);
 
     ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}}) override;
@@ -61,7 +62,6 @@ namespace Voussoir
     const PairClusters       clusters;
     std::vector<PairState>   states;
     SystemTimes              spent;
-    Unknowns                 mean;                       ///< of the displacement w over the time step [m]
     Unknowns                 next;                       ///< velocity at the end of the step h [m/s]
     Unknowns                 pair_force;                 ///< joint forces of the step h [N]
     Unknowns                 gap_before, gap, gap_after; ///< of the steps k - 1, k and k + 1 [m]

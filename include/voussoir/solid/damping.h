@@ -57,8 +57,8 @@ namespace Voussoir
    *
    *     w = u_s + modulus (u - u_s + sum_l c_l d_l),    d d_l / dt = du / dt - d_l / tau_l.
    *
-   * The memory variables d_l follow by the rule of the time integration, so all works of a step are exact. K d_l follows from K u by
-   * the same recursion, without a product with K. Without mechanisms (#c is empty), w = u. */
+   * The memory variables d_l follow by the rule of the time integration, so all works of a step are exact. K d_l
+   * follows from K u by the same recursion, without a product with K. Without mechanisms (#c is empty), w = u. */
   struct Damping
   {
     double              mass = 0., stiffness = 0.; ///< [1/s], [s]
@@ -78,12 +78,12 @@ namespace Voussoir
     /** Returns the memory of the static state. */
     DampingMemory memory_of(const Unknowns &u, const Unknowns &Ku) const;
 
-    /** Adds to the known forces @p rhs of a step of length @p dt what relaxation changes, except for the term of K u with
-     * more_stiffness(). @p Ku: at the start of the step [N]. */
+    /** Adds the forces of the relaxation to the known forces @p rhs of a step of length @p dt, without the term of K u
+     * with more_stiffness(). @p Ku: at the start of the step [N]. */
     void add_known_forces(double dt, const DampingMemory &memory, const Unknowns &Ku, Unknowns &rhs) const;
 
-    /** Advances the memory by a step of length @p dt [s] to @p u and @p Ku. @p u_old, @p Ku_old: at its start. Returns the
-     * energy that the mechanisms dissipate [J]. */
+    /** Advances the memory by a step of length @p dt [s] from @p u_old and @p Ku_old to @p u and @p Ku. Returns the energy
+     * that the mechanisms dissipate [J]. */
     double advance(double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
                    const Unknowns &Ku, DampingMemory &memory) const;
 
