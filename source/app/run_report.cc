@@ -222,6 +222,12 @@ namespace Voussoir
     report_probes(dam, log);
     report_motion_and_warnings(run, log);
     report_motion_notes(run, log);
+    if (dam.facts.critical_step > 0.)
+      log.line("Critical  step of an explicit scheme for the dam %.4g ms, from the elements at %s",
+               1e3 * dam.facts.critical_step, dam.facts.critical_place.c_str());
+    if (run.n_steps > 0 && scene.is_explicit())
+      log.line("Explicit  %u steps of %.4g ms in a time step", scene.n_explicit,
+               1e3 * run.motion.dt / scene.n_explicit);
     if (validate)
     {
       std::istringstream groups(dam.facts.groups);

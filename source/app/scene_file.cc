@@ -209,9 +209,7 @@ namespace Voussoir
                             entry.place});
       before = entry.place;
     }
-    scene.check();
-    scene.output.read_intervals(scene.motion.time_step);
-    scene.motion.read_target(scene.directory);
+    scene.complete();
     std::vector<WrittenEntry> in_order;
     for (const DeclaredEntry &declared : known)
       if (const auto found = written.find(declared.name()); found != written.end())

@@ -5,9 +5,11 @@
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/blas_buffers.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/base/ranks.h>
 #include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/static_path.h>
+#include <voussoir/dynamics/leapfrog.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/output/energy_check.h>
 
@@ -94,7 +96,8 @@ namespace Voussoir
     if (foundation.substeps > 0 || foundation.coupling != "auto" || scene.impact_rule != "mean-force" ||
         state.n_steps == 0)
       return;
-    foundation.substeps = state.dam->foundation->needed_substeps(state.motion.dt);
+    foundation.substeps =
+        std::clamp(std::ceil(state.motion.dt / state.dam->foundation->largest_step()), 1., 100.);
     if (foundation.substeps == 1)
       return;
     state.dam.reset();
@@ -117,6 +120,44 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    /** Computes the critical step of the dam, and where it comes from. */
+    void find_critical_step(Dam &dam)
+    {
+      Structure rock;
+      rock.mass.assign(dam.structure.n_nodes(), Matrix3{});
+      dam.foundation->add_mass(rock);
+      const CriticalStep critical = critical_step(dam.structure, rock.mass);
+      dam.facts.critical_step = critical.length;
+      dam.facts.critical_place = dam.model->place_of(critical.node);
+    }
+
+    /** Returns the number of steps of the explicit scheme in a time step @p dt. Throws InputError if the wanted step is
+     * too long, or very short. */
+    unsigned int explicit_steps(const Dam &dam, const double dt)
+    {
+      constexpr double share_of_critical = .95, most_steps = 1e5;
+      const double     of_rock = dam.foundation->largest_step(),
+                   limit = std::min(dam.facts.critical_step, of_rock), step = dam.scene.explicit_step;
+      const std::string critical =
+          number_text(limit) + " s, of the " +
+          (of_rock < dam.facts.critical_step ? "rock"
+                                             : "dam, from the elements at " + dam.facts.critical_place);
+      if (step > limit)
+        throw InputError("Entry \"Dynamics/Explicit step\" = " + number_text(step) +
+                         " s is above the critical step of " + critical + ". Set it to at most " +
+                         number_text(share_of_critical * limit) + ", or to -1.");
+      const double wanted = step > 0. ? step : share_of_critical * limit;
+      if (!(dt / wanted < most_steps))
+        throw InputError("Entry \"Dynamics/Explicit step\" = " + number_text(step) + " s: steps of " +
+                         number_text(wanted) + " s divide a time step into more than " +
+                         number_text(most_steps) + " parts (critical step of " + critical +
+                         "). Increase the step, or mend the mesh.");
+      return std::ceil(dt / wanted - 1e-9);
+    }
+  } // namespace
+
   /** Reads the files of the scene and creates the dam. Throws InputError for invalid input. */
   void Simulation::read_input()
   {
@@ -129,6 +170,10 @@ namespace Voussoir
     check_water_size(scene, n_steps > 0 ? motion.dt : 0., log);
     make_dam();
     set_damping(*state.dam, n_steps > 0);
+    if (n_steps > 0 && (scene.is_explicit() || options.validate))
+      find_critical_step(*state.dam);
+    if (n_steps > 0 && scene.is_explicit())
+      scene.n_explicit = explicit_steps(*state.dam, motion.dt);
     const Dam &dam = *state.dam;
     loaded_wedges(scene, *dam.model); // throws InputError
     if (!scene.statics.stages.empty())
@@ -188,8 +233,6 @@ namespace Voussoir
       log.line("Shaking   %.2f s in %u steps of %g s; memory of joint operators and factors %.2f GiB",
                state.grid().duration(), state.n_steps, state.motion.dt,
                std::accumulate(bytes.begin(), bytes.end(), 0.) / std::pow(2., 30));
-      if (const std::string steps = state.integrator->about_steps(); !steps.empty())
-        log.line("          %s", steps.c_str());
       log.line(
           "          newton: mean since the start; open, slip: pairs at this time; opening [mm], slip [mm], "
           "tension: largest since the start");

@@ -110,7 +110,7 @@ namespace Voussoir
     {
       const DampingParameters &damping = dam.scene.damping;
       Json                     json;
-      json.add("model", damping.model).add("ratio", damping.ratio);
+      json.add("model", damping.is_uniform() ? "uniform" : "Rayleigh").add("ratio", damping.ratio);
       if (damping.is_uniform())
       {
         const double first = dam.facts.frequencies.empty() ? 0. : dam.facts.frequencies[0];

@@ -84,7 +84,8 @@ namespace Voussoir
         return n_secondary() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_secondary() + 1 : 0);
       }
 
-      bool needs_mean_force() const override { return seat > 0.; }
+      bool   needs_mean_force() const override { return seat > 0.; }
+      double flank_compliance() const override { return seat; }
 
       /** Returns 2 if the step passes through a flank or beyond its end and requires the next event, else 0. */
       double utilisation(const Vector3 &, const Vector3 &gap, const PairHistory &history) const override

@@ -81,6 +81,8 @@ namespace Voussoir
     FoundationParameters founded = scene.foundation;
     if (founded.coupling == "auto" && scene.impact_rule != "mean-force")
       founded.coupling = "partition"; // the other coupling requires mean forces
+    if (scene.is_explicit())
+      founded.coupling = "common step";
     foundation = make_foundation({founded, mesh, source, scene.elements.degree,
                                   scene.elements.incompatible_modes, is_one_body(scene, layout.tied),
                                   scene.mesh.source == "file" ? "" : scene.mesh.section()});
@@ -133,7 +135,8 @@ namespace Voussoir
   bool Dam::is_one_body(const Scene &scene, const bool tied)
   {
     return (tied && (scene.is_for_modes || !scene.damping.is_uniform())) ||
-           impact_rule(scene.impact_rule) != ImpactRule::mean_force || scene.contact.write_problems;
+           impact_rule(scene.impact_rule) != ImpactRule::mean_force || scene.contact.write_problems ||
+           scene.is_explicit();
   }
 
   /** Creates the model and the structure with the foundation. */
@@ -209,7 +212,7 @@ namespace Voussoir
           "them to false.");
     if (foundation->base() == Foundation::Base::merged)
       throw InputError(
-          "Base joints on massless rock require \"Dynamics/Impact\" = mean-force and "
+          "Base joints on massless rock require \"Dynamics/Scheme\" = trapezoidal, \"Dynamics/Impact\" = mean-force and "
           "\"Contact/Write problems\" = false. Set these entries, or \"Joints/Overrides\" = base: tied.");
     if (foundation->uses_rock()) // the joints lie between dam and footings
       return;
@@ -371,18 +374,35 @@ namespace Voussoir
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       if (model->on_surface(i, PhysicalId::base))
         bottom = std::min(bottom, model->points[i][2]);
+    std::vector<Vector3> places; // each once, however many monoliths stand on it
     for (unsigned int i = 0; i < model->n_nodes(); ++i)
       if (model->on_surface(i, PhysicalId::base) && model->equation[i] != rigid_ground &&
           model->points[i][2] < bottom + 1e-3)
+      {
         lowest_base.push_back(model->equation[i]);
+        places.push_back(model->points[i]);
+      }
+    const auto n_at = [&](const Vector3 &place)
+    {
+      return std::count_if(places.begin(), places.end(),
+                           [&](const Vector3 &x) { return norm(x - place) < 1e-6 * size; });
+    };
+    double sum = 0.;
+    for (const Vector3 &place : places)
+    {
+      share_of_base.push_back(1. / n_at(place));
+      sum += share_of_base.back();
+    }
+    for (double &share : share_of_base)
+      share /= sum;
   }
 
   Vector3 Dam::base_motion(const Unknowns &u) const
   {
     Vector3 mean{};
-    for (const unsigned int node : lowest_base)
+    for (std::size_t i = 0; i < lowest_base.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        mean[c] += u[3 * node + c] / lowest_base.size();
+        mean[c] += share_of_base[i] * u[3 * lowest_base[i] + c];
     return mean;
   }
 

@@ -18,8 +18,9 @@ namespace Voussoir
     prm.add_parameter(
         "Model", model,
         "Rayleigh: C = a M + b K, with the ratio at two frequencies. uniform: the ratio in a band of "
-        "frequencies, of the deformation of the concrete only: a free monolith moves without damping.",
-        dealii::Patterns::Selection("Rayleigh|uniform"));
+        "frequencies, of the deformation of the concrete only: a free monolith moves without damping. automatic: "
+        "Rayleigh, with \"Dynamics/Scheme\" = explicit uniform.",
+        dealii::Patterns::Selection("automatic|Rayleigh|uniform"));
     prm.add_parameter("Ratio", ratio, "Damping ratio [-].", {.001, .2, true}, Double(0., 1.));
     prm.add_parameter("Frequency 1", frequency_1, "Rayleigh: lower frequency with this damping ratio [Hz].",
                       {0., 20.}, Double(1e-6));

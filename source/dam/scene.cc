@@ -402,12 +402,12 @@ namespace Voussoir
     mesh.add_choices(foundation_reads(foundation.model, "Foundation/Young's modulus"), choices);
     if (elements.degree == 1)
       choices.add("numerics", "elements of degree 2", "Elements/Degree", 2.);
-    if (scheme != "explicit")
+    if (!is_explicit())
       choices.add("numerics", "half the time step", "Dynamics/Steps per sample", 2. * steps_per_sample);
-    if (scheme != "explicit" && steps_per_sample % 2 == 0)
+    if (!is_explicit() && steps_per_sample % 2 == 0)
       choices.add("numerics", "twice the time step", "Dynamics/Steps per sample", .5 * steps_per_sample,
                   true);
-    if (!has_single_factors() && scheme != "explicit")
+    if (!has_single_factors() && !is_explicit())
       choices.add("numerics", "factors in single precision", {{"Dynamics/Factors", "single"}}, true);
     contact.add_choices(choices);
     const auto refused = [&](const ModelChoice &choice) // by check()
@@ -483,6 +483,14 @@ namespace Voussoir
                          "). Choose another one with --output.");
   }
 
+  void Scene::complete()
+  {
+    damping.with_explicit = is_explicit();
+    check();
+    output.read_intervals(motion.time_step);
+    motion.read_target(directory);
+  }
+
   void Scene::check() const
   {
     mesh.check();
@@ -498,14 +506,15 @@ namespace Voussoir
       throw InputError("\"Foundation/Coupling\" = partition with \"Foundation/Substeps\" above 1 was removed "
                        "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "
                        "\"Foundation/Substeps\" to 1.");
-    if (scheme == "explicit")
+    if (is_explicit())
     {
       const auto refuse = [](const std::string &why) {
         throw InputError("\"Dynamics/Scheme\" = explicit " + why +
                          ", or \"Dynamics/Scheme\" to trapezoidal.");
       };
-      if (foundation.model != "rigid")
-        refuse("requires a rigid base, not " + foundation.model + " rock. Set \"Foundation/Model\" to rigid");
+      if (foundation.model == "rock" && damping.law().mass > 0. && motion.source != "none")
+        refuse("on rock has no mass-proportional damping, which would brake the motion of the rock. Set "
+               "\"Damping/Model\" to uniform");
       if (reservoir.is_meshed())
         refuse("has no " + reservoir.model +
                " water. Set \"Reservoir/Model\" to an added mass, such as Westergaard");

@@ -31,12 +31,15 @@ namespace Voussoir
 
     /** Returns the rows in which a joint is rigid, or its stiffness exceeds 4/dt^2 times the mass of the pair. The time
      * step resolves the vibration of a softer joint. The velocity of a stiffer one would change its sign in each step,
-     * so that it is corrected like a rigid one; this takes less energy than the joint force of the step. */
-    ImpactRows stiff_rows(const JointLaw &law, const Matrix3 &H, const double area, const double dt)
+     * so that it is corrected like a rigid one; this takes less energy than the joint force of the step. Soft flanks of
+     * keys leave the face. @p active: active surfaces. */
+    ImpactRows stiff_rows(const JointLaw &law, const Matrix3 &H, const double area, const double dt,
+                          const unsigned char active)
     {
       const ElasticLaw *elastic = law.elastic_law();
       if (!elastic)
-        return ImpactRows::all;
+        return active > 1 && law.flank_compliance() / area >= .25 * dt * dt * H[0] ? ImpactRows::normal
+                                                                                   : ImpactRows::all;
       const Vector3 compliance = elastic->compliance(area);
       const auto    is_soft = [&](const unsigned int c) { return compliance[c] / H[4 * c] >= .25 * dt * dt; };
       return is_soft(0) ? ImpactRows::none : is_soft(1) || is_soft(2) ? ImpactRows::normal : ImpactRows::all;
@@ -143,7 +146,7 @@ namespace Voussoir
       step.applied.push_back(get(impulse, p));
       step.jump.push_back(structure.jump(structure.pairs[p], v));
       ImpactRows rows = closed || law.is_tangentially_tied()
-                            ? stiff_rows(law, of_pair(p), histories[p].area, dt)
+                            ? stiff_rows(law, of_pair(p), histories[p].area, dt, active)
                             : ImpactRows::none;
       if (rows == ImpactRows::normal)
         active &= 1;
@@ -191,8 +194,9 @@ namespace Voussoir
     const bool      closed = system.states()[p] != PairState::open;
     if (!closed && !law.is_tangentially_tied())
       return;
-    const Vector3    jump = structure.jump(pair, v), applied = get(impulse, p);
-    const ImpactRows rows = stiff_rows(law, of_pair(p), history.area, dt);
+    const Vector3       jump = structure.jump(pair, v), applied = get(impulse, p);
+    const unsigned char active = system.active_surfaces()[p];
+    const ImpactRows    rows = stiff_rows(law, of_pair(p), history.area, dt, active);
     if (rows == ImpactRows::none)
       return;
     if (rule == ImpactRule::paper)
@@ -205,7 +209,6 @@ namespace Voussoir
         impulse[3 * p + c] += f[c];
       return;
     }
-    const unsigned char active = system.active_surfaces()[p];
     if (rows == ImpactRows::normal || (system.states()[p] == PairState::slip &&
                                        slides_on(law, of_pair(p), jump, applied, get(change, p), active)))
     {

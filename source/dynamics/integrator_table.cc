@@ -18,8 +18,9 @@ namespace Voussoir
 
     std::unique_ptr<Integrator> make_leapfrog(const IntegratorInput &input)
     {
-      ensure(!input.support, "The leapfrog rule requires a rigid base.");
-      return std::make_unique<Leapfrog>(input.structure, input.laws, input.dt, input.explicit_step);
+      ensure(!input.support, "The leapfrog rule has no support.");
+      return std::make_unique<Leapfrog>(input.structure, input.laws, input.dt, input.n_steps,
+                                        input.neighbour);
     }
   } // namespace
 

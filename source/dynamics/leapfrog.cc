@@ -15,10 +15,8 @@ namespace Voussoir
 {
   namespace
   {
-    constexpr double       share_of_critical = .95;
     constexpr unsigned int most_sweeps = 2000, most_events = 8;
-    constexpr double       most_steps = 1e5; ///< in a time step
-    constexpr double       enough = 1e-9;    ///< relative change of the forces of a cluster
+    constexpr double       enough = 1e-9; ///< relative change of the forces of a cluster
 
     Matrix3 scaled(const Matrix3 &a, const double factor)
     {
@@ -53,21 +51,14 @@ namespace Voussoir
     }
   } // namespace
 
-  Leapfrog::Leapfrog(const Structure &structure, const JointLaws &laws, const double dt, const double step)
-      : Integrator(structure, laws), dt(dt), clusters(structure),
-        states(structure.pairs.size(), PairState::open)
+  CriticalStep critical_step(const Structure &structure, const std::vector<Matrix3> &without)
   {
-    check(structure);
     std::vector<double> mass; // without the added mass: the frequency is an upper bound
+    const auto          trace = [](const Matrix3 &m) { return m[0] + m[4] + m[8]; };
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)
-    {
-      const Matrix3 &m = structure.mass[i];
-      const double   added =
-          structure.added_mass.empty()
-                ? 0.
-                : structure.added_mass[i][0] + structure.added_mass[i][4] + structure.added_mass[i][8];
-      mass.push_back((m[0] + m[4] + m[8] - added) / 3.);
-    }
+      mass.push_back((trace(structure.mass[i]) - (without.empty() ? 0. : trace(without[i])) -
+                      (structure.added_mass.empty() ? 0. : trace(structure.added_mass[i]))) /
+                     3.);
     const auto multiply = [&](const double *x, double *y)
     {
       Unknowns Ku;
@@ -77,33 +68,25 @@ namespace Voussoir
     double stiffest = structure.damping.modulus;
     for (const double c : structure.damping.c)
       stiffest += structure.damping.modulus * c;
-    critical = 2. / (largest_frequency(std::function<void(const double *, double *)>(multiply), mass) *
-                     std::sqrt(stiffest));
-    if (step > critical)
-      throw InputError("Entry \"Dynamics/Explicit step\" = " + number_text(step) +
-                       " s is above the critical step of the dam, " + number_text(critical) +
-                       " s. Set it to at most " + number_text(share_of_critical * critical) + ", or to -1.");
-    const double wanted = step > 0. ? step : share_of_critical * critical;
-    if (!(dt / wanted < most_steps))
-      throw InputError("Entry \"Dynamics/Explicit step\" = " + number_text(step) + " s: steps of " +
-                       number_text(wanted) + " s divide a time step into more than " +
-                       number_text(most_steps) + " parts (critical step " + number_text(critical) +
-                       " s). Increase the step, or mend the mesh.");
-    n_steps = std::ceil(dt / wanted - 1e-9);
-    h = dt / n_steps;
-    gain = h / (1. + .5 * h * structure.damping.mass);
+    CriticalStep                                        result;
+    const std::function<void(const double *, double *)> product = multiply;
+    result.length = 2. / (largest_frequency(product, mass, &result.node) * std::sqrt(stiffest));
+    return result;
+  }
+
+  Leapfrog::Leapfrog(const Structure &structure, const JointLaws &laws, const double dt,
+                     const unsigned int n_steps, StepNeighbour *const neighbour)
+      : Integrator(structure, laws), dt(dt), n_steps(n_steps), h(dt / n_steps),
+        gain(h / (1. + .5 * h * structure.damping.mass)), neighbour(neighbour), clusters(structure),
+        states(structure.pairs.size(), PairState::open)
+  {
+    check(structure);
     std::size_t at = 0;
     for (const JointLaw *law : laws.of_pair)
     {
       memory_begin.push_back(at);
       at += law->n_memory();
     }
-  }
-
-  std::string Leapfrog::about_steps() const
-  {
-    return "explicit, " + std::to_string(n_steps) + " steps of " + number_text(1e3 * h) +
-           " ms in a time step (critical step " + number_text(1e3 * critical) + " ms)";
   }
 
   double Leapfrog::memory() const
@@ -131,10 +114,16 @@ namespace Voussoir
     impulse.assign(3 * structure.pairs.size(), 0.);
     const Unknowns u_start = now.u;
     now.relaxation.mean.assign(now.u.size(), 0.);
+    outer.assign(now.u.size(), 0.);
     const double end = now.time + dt;
     for (unsigned int k = 0; k < n_steps; ++k)
     {
       Work work;
+      if (neighbour)
+      {
+        outer.assign(now.u.size(), 0.);
+        neighbour->add_forces(outer);
+      }
       predict(double(k) / n_steps, load);
       Stopwatch joints;
       solve_joints(k + 1 == n_steps, result, work);
@@ -178,7 +167,7 @@ namespace Voussoir
         const std::size_t k = 3 * i + c;
         now.relaxation.mean[k] +=
             (now.u[k] + structure.damping.more_displacement(now.relaxation, now.u[k], k)) / n_steps;
-        f[c] = (1. - share) * now.load[k] + share * load[k] - now.Ku[k] -
+        f[c] = (1. - share) * now.load[k] + share * load[k] + outer[k] - now.Ku[k] -
                structure.damping.more_force(now.relaxation, now.Ku[k], k);
       }
       const Vector3 a_i = clusters.inverse_masses()[i] * f;
@@ -340,8 +329,9 @@ namespace Voussoir
     work.opening -= elastic;
   }
 
-  /** Sets the kinetic and the strain energies of the middle of a step to @p u. @p relaxed: see Damping::Energies. */
-  void Leapfrog::account(const Unknowns &u, const Unknowns &Ku, const double relaxed)
+  /** Sets the kinetic and the strain energies of the middle of a step to @p u. @p more: strain energy of damping and
+   * neighbour [J]. */
+  void Leapfrog::account(const Unknowns &u, const Unknowns &Ku, const double more)
   {
     const auto energy = [&](const std::size_t begin, const std::size_t end)
     {
@@ -361,7 +351,7 @@ namespace Voussoir
     const auto energies = sum_of_ranges<std::array<double, 3>>(structure.n_nodes(), energy);
     now.energy.kinetic = energies[0] - energies[1];
     now.energy.added_mass = energies[1];
-    now.energy.strain = energies[2] + elastic_energy + relaxed;
+    now.energy.strain = energies[2] + elastic_energy + more;
   }
 
   /** Advances the state by one step. The works are those of the forces at u(k) along (u(k + 1) - u(k - 1)) / 2. */
@@ -378,8 +368,8 @@ namespace Voussoir
         {
           const std::size_t k = 3 * i + c;
           mean[c] = .5 * (now.v[k] + next[k]);
-          const double force =
-              (1. - share) * now.load[k] + share * load[k] - (elastic_force.empty() ? 0. : elastic_force[k]);
+          const double force = (1. - share) * now.load[k] + share * load[k] + outer[k] -
+                               (elastic_force.empty() ? 0. : elastic_force[k]);
           input += h * force * mean[c];
         }
         if (alpha > 0.)
@@ -399,8 +389,16 @@ namespace Voussoir
         structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation);
     work.input += works[0];
     work.damping += works[1] + relaxed.dissipated;
+    double outside = relaxed.stored;
+    if (neighbour)
+    {
+      const double before = neighbour->strain();
+      neighbour->advance(u, next);
+      outside += neighbour->strain();
+      work.input += neighbour->strain() - before;
+    }
     if (is_last)
-      account(u, Ku, relaxed.stored);
+      account(u, Ku, outside);
     now.u.swap(u);
     now.Ku.swap(Ku);
     now.v.swap(next);

@@ -213,11 +213,6 @@ namespace Voussoir
     balance->update_largest();
   }
 
-  unsigned int ExplicitRock::needed_substeps(const double dt) const
-  {
-    return std::clamp(std::ceil(dt / std::min(dt_critical, dt_boundary)), 1., 100.);
-  }
-
   void ExplicitRock::check(const TimeGrid &steps, const unsigned int steps_per_sample) const
   {
     check_rock_step(parameters, steps, steps_per_sample, dt_critical, dt_boundary);

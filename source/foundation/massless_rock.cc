@@ -35,7 +35,7 @@ namespace Voussoir
       return result;
     }
 
-    class MasslessRock : public Foundation
+    class MasslessRock : public Foundation, public StepNeighbour
     {
     public:
       explicit MasslessRock(const FoundationSite &site)
@@ -155,6 +155,40 @@ namespace Voussoir
         return supported.get();
       }
 
+      StepNeighbour *step_neighbour(Structure &structure) override
+      {
+        add_rock(-1., structure);
+        S = dam_nodes.matrix(rock.matrix());
+        Unknowns u;
+        gather(at_rest, u);
+        account.assign(u.size() + 1, 0.); // S u, and the strain energy since the start
+        S.multiply(u.data(), account.data());
+        for (std::size_t k = 0; k < u.size(); ++k)
+          strain_of_start += .5 * account[k] * u[k];
+        return this;
+      }
+
+      void add_forces(Unknowns &load) const override
+      {
+        for (std::size_t i = 0; i < dam_nodes.node.size(); ++i)
+          for (unsigned int c = 0; c < 3; ++c)
+            load[3 * std::size_t(dam_nodes.node[i]) + c] -= account[3 * i + c];
+      }
+
+      /** The strain energy of the middle of a step is u(k) S u(k + 1) / 2, as that of the dam. */
+      void advance(const Unknowns &displacement, const Unknowns &) override
+      {
+        Unknowns u;
+        gather(displacement, u);
+        double &strain = account.back();
+        strain = -strain_of_start;
+        for (std::size_t k = 0; k < u.size(); ++k)
+          strain += .5 * account[k] * u[k];
+        S.multiply(u.data(), account.data());
+      }
+
+      double strain() const override { return account.back(); }
+
       std::vector<std::pair<std::string, double>> energies() const override
       {
         return supported ? supported->energies() : std::vector<std::pair<std::string, double>>();
@@ -172,8 +206,8 @@ namespace Voussoir
 
       std::vector<std::vector<double> *> state() override
       {
-        if (one_body && base_motion)
-          return {&steps_done};
+        if (one_body)
+          return {&steps_done, &account};
         return supported ? std::vector<std::vector<double> *>{&supported->account}
                          : std::vector<std::vector<double> *>();
       }
@@ -189,6 +223,14 @@ namespace Voussoir
         BlockSparseMatrix &K = structure.bodies[0].stiffness;
         K = with_block(K, dam_nodes.node, of_rock);
         K.symmetrise();
+      }
+
+      void gather(const Unknowns &u, Unknowns &of_base) const
+      {
+        of_base.clear();
+        for (const unsigned int node : dam_nodes.node)
+          of_base.insert(of_base.end(), u.begin() + 3 * std::size_t(node),
+                         u.begin() + 3 * std::size_t(node) + 3);
       }
 
       double static_spring() const
@@ -224,6 +266,9 @@ namespace Voussoir
       double                           damping = 0.;      ///< stiffness-proportional [s]
       std::unique_ptr<BaseMotion>      base_motion;       ///< or null: the banks have the ground motion
       std::vector<double>              steps_done = {0.}; ///< for base_motion of one body
+      BlockSparseMatrix                S;       ///< of the base nodes, for the explicit scheme [N/m]
+      std::vector<double>              account; ///< of the explicit scheme
+      double                           strain_of_start = 0.; ///< of the rock [J]
       std::unique_ptr<MasslessSupport> supported;
     };
   } // namespace

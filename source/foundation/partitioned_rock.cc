@@ -98,6 +98,47 @@ namespace Voussoir
     return result;
   }
 
+  std::string CommonStepRock::about_steps() const
+  {
+    std::ostringstream text;
+    text.precision(4);
+    text << ", each of " << grid.substeps
+         << " steps that dam and rock take together; critical time step of the rock " << dt_critical << " s";
+    return text.str();
+  }
+
+  void CommonStepRock::add_forces(Unknowns &load) const
+  {
+    for (std::size_t i = 0; i < at_base.size(); ++i)
+      for (const unsigned int node : at_base[i].nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+          load[3 * node + c] += force[3 * i + c] / at_base[i].nodes.size();
+  }
+
+  void CommonStepRock::advance(const Unknowns &u, const Unknowns &w)
+  {
+    const Stopwatch watch;
+    Unknowns        v_before = v;
+    v.assign(v.size(), 0.);
+    u_base = v;
+    for (std::size_t i = 0; i < at_base.size(); ++i)
+      for (const unsigned int node : at_base[i].nodes)
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          u_base[3 * i + c] += u[3 * node + c] / at_base[i].nodes.size();
+          v[3 * i + c] += w[3 * node + c] / at_base[i].nodes.size();
+        }
+    for (std::size_t k = 0; k < v.size(); ++k)
+    {
+      u_base[k] -= rest[k];
+      balance->entries[RockBalance::on_dam] += force[k] * .5 * grid.substep() * (v_before[k] + v[k]);
+    }
+    const Unknowns &taken = region->advance(u_base, v);
+    for (std::size_t k = 0; k < v.size(); ++k)
+      force[k] = -taken[k];
+    seconds_advancing += watch.seconds();
+  }
+
   std::vector<std::vector<double> *> PartitionedRock::state()
   {
     if (!region)

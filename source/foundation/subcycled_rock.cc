@@ -10,6 +10,8 @@ namespace Voussoir
 {
   std::unique_ptr<Foundation> make_explicit_rock(const FoundationSite &site)
   {
+    if (site.parameters.coupling == "common step")
+      return std::make_unique<CommonStepRock>(site);
     if (site.parameters.is_subcycled())
       return std::make_unique<SubcycledRock>(site);
     return std::make_unique<PartitionedRock>(site);

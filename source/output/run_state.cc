@@ -27,11 +27,13 @@ namespace Voussoir
     if (n_steps > 0)
       for (Neighbour *neighbour : dam->neighbours)
         neighbour->start(motion, grid(), statics.u);
-    Support *const support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
+    Support *const       support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
+    StepNeighbour *const neighbour =
+        n_steps > 0 && scene().is_explicit() ? dam->foundation->step_neighbour(dam->structure) : nullptr;
     integrator = make_integrator(n_steps > 0 ? scene().scheme : "trapezoidal",
                                  {dam->structure, dam->layout.laws, parameters, motion.dt,
                                   impact_rule(scene().impact_rule), support, scene().has_single_factors(),
-                                  scene().explicit_step});
+                                  scene().n_explicit, neighbour});
     Unknowns load = statics.constant_load();
     if (n_steps > 0)
       add_inertia(*dam, motion.acceleration[0], load);

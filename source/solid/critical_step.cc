@@ -6,10 +6,37 @@
 
 namespace Voussoir
 {
+  namespace
+  {
+    /** Returns the node that moves most in a mode near the highest one, by the power method. @p scale: D, @p square: of
+     * the frequency. */
+    unsigned int moving_most(const std::function<void(const double *x, double *y)> &multiply,
+                             const std::vector<double> &scale, const double square)
+    {
+      constexpr unsigned int powers = 100;
+      std::vector<double>    mode(scale.size()), x(scale.size()), y(scale.size());
+      for (std::size_t i = 0; i < mode.size(); ++i)
+        mode[i] = 1. + .5 * std::sin(12.9898 * i);
+      for (unsigned int k = 0; k < powers; ++k)
+      {
+        for (std::size_t i = 0; i < mode.size(); ++i)
+          x[i] = scale[i] * mode[i] / square;
+        multiply(x.data(), y.data());
+        for (std::size_t i = 0; i < mode.size(); ++i)
+          mode[i] = scale[i] * y[i];
+      }
+      std::size_t most = 0;
+      for (std::size_t i = 0; i < mode.size(); ++i)
+        if (std::abs(scale[i] * mode[i]) > std::abs(scale[most] * mode[most]))
+          most = i;
+      return most / 3;
+    }
+  } // namespace
+
   /** Lanczos' method for D K D with D = M^(-1/2). The estimate of the square is a lower bound, so the residual is added
    * (Zhou and Li 2011, Linear Algebra Appl. 435, 480-493). The iteration ends with a residual of 1e-5 of the square. */
   double largest_frequency(const std::function<void(const double *x, double *y)> &multiply,
-                           const std::vector<double>                             &mass)
+                           const std::vector<double> &mass, unsigned int *const node)
   {
     constexpr unsigned int most = 1000, interval = 10;
     constexpr double       enough = 1e-5;
@@ -56,6 +83,8 @@ namespace Voussoir
       for (int i = 0; i < n; ++i)
         v[i] = next[i] / T.off_diagonal.back();
     }
+    if (node != nullptr)
+      *node = moving_most(multiply, scale, found);
     return std::sqrt(found + residual);
   }
 } // namespace Voussoir

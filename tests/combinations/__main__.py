@@ -29,7 +29,7 @@ sys.path.insert(0, str(HERE.parent))
 import run_program  # noqa: E402
 from choices import written_files  # noqa: E402
 from relations import ALWAYS, RARE, RELATIONS, Case  # noqa: E402
-from scenes import Failed, Net, Omitted, cpu_time, first_sentence  # noqa: E402
+from scenes import Failed, Net, Omitted, Refused, cpu_time, first_sentence  # noqa: E402
 
 PAGE = HERE.parent.parent / "doc" / "generated" / "refused_pairs.md"
 
@@ -49,7 +49,7 @@ def first(case):
     """The first run of a scene. Some choices leave no equilibrium, such as water on a cracked base without self-weight."""
     try:
         case.first = case.run("first")
-    except Failed as error:
+    except (Failed, Refused) as error:
         if re.search("did not converge|no equilibrium|moves without limit", str(error)):
             raise Omitted(str(error)) from None
         raise

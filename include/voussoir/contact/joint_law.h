@@ -168,6 +168,9 @@ namespace Voussoir
      * The solver uses these forces as unknowns, see PairSurfaces. */
     virtual const SurfacesLaw *surfaces_law() const { return nullptr; }
 
+    /** Returns the compliance of the elastic flanks of keys [m/Pa]; 0: rigid or none. */
+    virtual double flank_compliance() const { return 0.; }
+
     /** Returns this object if the joint itself is elastic or has an adhesion, else a null pointer. */
     virtual const ElasticLaw *elastic_law() const { return nullptr; }
 

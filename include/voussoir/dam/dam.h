@@ -100,7 +100,8 @@ namespace Voussoir
     void                   check_water_level();
     void                   find_lowest_base();
 
-    std::vector<unsigned int> lowest_base; ///< free nodes at the lowest height of the base
+    std::vector<unsigned int> lowest_base;   ///< free nodes at the lowest height of the base
+    std::vector<double>       share_of_base; ///< their weights in base_motion(); each place counts once
     Unknowns weight_on_joints; ///< of base and lift joints: staged weight per free node [N], or empty
   };
 } // namespace Voussoir

@@ -35,15 +35,16 @@ namespace Voussoir
   {
     static constexpr double largest_uniform = .25;
 
-    std::string model = "Rayleigh";
-    double      ratio = .05, frequency_1 = 1.2, frequency_2 = 6.;      ///< [-], [Hz], [Hz]
+    std::string model = "automatic";
+    bool        with_explicit = false;                            ///< of the scene: automatic is then uniform
+    double      ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
     double      mass_coefficient = -1., stiffness_coefficient = -1.;   ///< [1/s], [s]; -1: from the ratio
     double band_begin = .5, band_end = 20., reference_frequency = -1.; ///< [Hz]; -1: first natural frequency
     unsigned int terms = 3;                                            ///< mechanisms of uniform damping
     void         add_parameters(Entries &prm);
     void         check() const;
     void         add_choices(ModelChoices &choices) const;
-    bool         is_uniform() const { return model == "uniform"; }
+    bool         is_uniform() const { return model == "uniform" || (model == "automatic" && with_explicit); }
     bool   needs_first_frequency() const { return is_uniform() && ratio > 0. && reference_frequency < 0.; }
     double mass_factor() const;      ///< a of Rayleigh damping [1/s]
     double stiffness_factor() const; ///< b of Rayleigh damping [s]
@@ -138,7 +139,8 @@ namespace Voussoir
     std::string          impact_rule = "mean-force"; ///< "Dynamics/Impact"
     std::string          scheme = "trapezoidal";     ///< time scheme of integrator_table()
     double               explicit_step = -1.;        ///< [s]; -1: from the critical step
-    std::string          factors = "single";         ///< precision of the matrix factors of time steps
+    unsigned int         n_explicit = 1; ///< steps of an explicit scheme in a time step, set by Simulation
+    std::string          factors = "single"; ///< precision of the matrix factors of time steps
     MeshParameters       mesh;
     ElementParameters    elements;
     Material             concrete;       ///< of volumes without an entry in @p concrete_zones
@@ -158,6 +160,8 @@ namespace Voussoir
 
     /** Returns the ratio of sustained and Young's modulus, for all zones of the concrete [-]. */
     double sustained_ratio() const { return sustained > 0. ? sustained / concrete.young : 1.; }
+
+    bool is_explicit() const { return scheme == "explicit"; }
 
     /** Returns true if the matrix factors are in single precision. */
     bool has_single_factors() const { return factors == "single"; }
@@ -185,6 +189,9 @@ namespace Voussoir
 
     /** Checks all entries. Throws InputError for invalid values or combinations of values. */
     void check() const;
+
+    /** Sets what follows from several entries, after check(). Throws InputError, as check() does. */
+    void complete();
 
     std::vector<std::string> sources; ///< input file and included files
 

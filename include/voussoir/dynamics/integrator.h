@@ -79,8 +79,7 @@ namespace Voussoir
     virtual SystemTimes times() const = 0; ///< times of all steps of this object
 
     /** Weight of the load at the end in the mean load of a time step [-]; the rest is that at its start. */
-    virtual double      weight_of_end() const { return .5; }
-    virtual std::string about_steps() const { return ""; } ///< steps inside of a time step, or empty
+    virtual double weight_of_end() const { return .5; }
 
     virtual double memory() const = 0; ///< memory consumption of factors and operators [bytes]
 

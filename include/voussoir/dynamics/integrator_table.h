@@ -18,7 +18,8 @@ namespace Voussoir
     ImpactRule        rule = ImpactRule::mean_force; ///< velocity correction of closed pairs
     Support          *support = nullptr;             ///< subcycled or massless foundation, or nullptr
     bool              single_factors = false;        ///< factors in single precision
-    double            explicit_step = -1.; ///< of the explicit scheme [s]; -1: from the critical one
+    unsigned int      n_steps = 1;                   ///< steps of the explicit scheme in a time step
+    StepNeighbour    *neighbour = nullptr;           ///< takes these steps, too; or nullptr
   };
 
   /** A time scheme that an input file can choose. */

@@ -4,9 +4,21 @@
 
 #include <voussoir/dynamics/integrator.h>
 #include <voussoir/dynamics/pair_clusters.h>
+#include <voussoir/dynamics/support.h>
 
 namespace Voussoir
 {
+  /** Largest stable step of the leapfrog rule, and what limits it. */
+  struct CriticalStep
+  {
+    double       length = 0.; ///< [s]
+    unsigned int node = 0;    ///< free node that moves most in the highest mode
+  };
+
+  /** Returns the critical step of a structure for its damping (Damping: moduli). The damping of the mass does not count.
+   * @param without masses of nodes that do not count, such as those of the rock [kg] */
+  CriticalStep critical_step(const Structure &structure, const std::vector<Matrix3> &without);
+
   /** Explicit time integration of a structure with joints by the leapfrog rule, with joint forces that satisfy the joint
    * laws at the end of each step (Carpenter, Taylor, Katona 1991, Int. J. Numer. Methods Eng. 32, 103-128):
    *
@@ -20,22 +32,23 @@ namespace Voussoir
   class Leapfrog : public Integrator
   {
   public:
-    /** Computes the critical step. start() or resume() must follow.
+    /** start() or resume() must follow.
      * @param structure masses, stiffness matrices, damping without a stiffness term, and pairs
      * @param laws joint laws of the pairs
      * @param dt time step of advance() [s]
-     * @param step wanted length of the steps h [s]; -1: 0.95 of the critical one. It is shortened to divide dt.
+     * @param n_steps number of steps h in dt, below the critical step
+     * @param neighbour takes the steps h, too; or nullptr
      *
-     * Throws InputError if @p step is above the critical step or divides dt into more than 1e5 parts, and on several
-     * processes. The structure must have no stiffness term of the damping, dashpots or reactions of water. */
-    Leapfrog(const Structure &structure, const JointLaws &laws, double dt, double step);
+     * Throws InputError on several processes. The structure must have no stiffness term of the damping, dashpots or
+     * reactions of water. */
+    Leapfrog(const Structure &structure, const JointLaws &laws, double dt, unsigned int n_steps,
+             StepNeighbour *neighbour = nullptr);
 
     ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}}) override;
     const std::vector<PairState> &pair_states() const override { return states; }
     SystemTimes                   times() const override { return spent; }
     double                        memory() const override;
     double                        weight_of_end() const override { return .5 * (n_steps - 1) / n_steps; }
-    std::string                   about_steps() const override;
 
   private:
     struct Work ///< works of one step h [J]
@@ -53,12 +66,14 @@ namespace Voussoir
     void         solve_joints(bool is_last, ContactResult &result, Work &work);
     void         add_work_of_joints(Work &work) const;
     void         move(double share, const Unknowns &load, bool is_last, Work &work);
-    void         account(const Unknowns &u, const Unknowns &Ku, double relaxed);
+    void         account(const Unknowns &u, const Unknowns &Ku, double more);
 
     const double             dt;
-    double                   critical = 0., h = 0.; ///< [s]
-    double                   gain = 0.;   ///< change of momentum per force, with the damping of the mass [s]
-    unsigned int             n_steps = 0; ///< steps h in dt
+    const unsigned int       n_steps; ///< steps h in dt
+    const double             h;       ///< [s]
+    const double             gain;    ///< change of momentum per force, with the damping of the mass [s]
+    StepNeighbour *const     neighbour;
+    Unknowns                 outer; ///< forces of the neighbour at the start of the step h [N]
     const PairClusters       clusters;
     std::vector<PairState>   states;
     SystemTimes              spent;

@@ -44,6 +44,25 @@ namespace Voussoir
      * @param work work of these forces on the dam [J] */
     virtual void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) = 0;
   };
+
+  /** Part of the model next to the dam that takes the steps of an explicit scheme together with it (Leapfrog). Vectors
+   * have three values per node of the dam. */
+  class StepNeighbour
+  {
+  public:
+    virtual ~StepNeighbour() = default;
+
+    /** Adds the forces on the dam at the present time to @p load [N]. */
+    virtual void add_forces(Unknowns &load) const = 0;
+
+    /** Advances by a step of the scheme. @p u: displacement of the dam at the end of the step [m], @p w: velocity in the
+     * step [m/s]. */
+    virtual void advance(const Unknowns &u, const Unknowns &w) = 0;
+
+    /** Returns the change of the strain energy since the start that is not part of an energy account of its own [J]. It
+     * belongs to the middle of the last step. */
+    virtual double strain() const { return 0.; }
+  };
 } // namespace Voussoir
 
 #endif

@@ -51,7 +51,7 @@ namespace Voussoir
 
     /** Returns the number of steps within the limits of rock and boundary, at most 100 (check() refuses larger
      * steps). */
-    unsigned int needed_substeps(double dt) const override;
+    double largest_step() const override { return std::min(dt_critical, dt_boundary); }
 
     /** Returns the free field of the section upstream, or of the highest column. It has its own
      * integration, ahead of the rock. */

@@ -12,6 +12,7 @@
 #include <voussoir/solid/solid_model.h>
 
 #include <functional>
+#include <limits>
 
 namespace Voussoir
 {
@@ -80,8 +81,8 @@ namespace Voussoir
      * longer by this time. Must be called after BaseSupport::add_stiffness(). */
     virtual double delay() const { return 0.; }
 
-    /** Returns the number of rock steps that a time step of the dam needs [-]. The argument is the time step [s]. */
-    virtual unsigned int needed_substeps(double /*dt*/) const { return 1; }
+    /** Returns the largest stable step of the foundation [s]; infinity: no limit. */
+    virtual double largest_step() const { return std::numeric_limits<double>::infinity(); }
 
     /** Returns the text after "Steps N of DT s" in the log, with the punctuation before it. Examples:
      *  - "; the scheme is implicit: there is no critical time step" (the default),
@@ -174,6 +175,10 @@ namespace Voussoir
      * interface nodes of their bodies. Must be called after Neighbour::start() and before the Newmark object
      * of the dam is created. */
     virtual Support *support(Structure & /*structure*/) { return nullptr; }
+
+    /** Returns what takes the steps of an explicit scheme, or nullptr. The foundation owns it. Its stiffness leaves the
+     * structure. Must be called after Neighbour::start(). */
+    virtual StepNeighbour *step_neighbour(Structure & /*structure*/) { return nullptr; }
 
     /** Returns the mean predicted velocity of the base nodes at the end of the time step: components x, y, z
      * in the axes of the mesh [m/s]. It is the absolute velocity if displacements are absolute, and zero if

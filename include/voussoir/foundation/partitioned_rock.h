@@ -30,7 +30,7 @@ namespace Voussoir
 
     std::vector<std::vector<double> *> state() override;
 
-  private:
+  protected:
     // Three values per base node, at the time of the dam; displacements without the static ones.
     Unknowns rest;         ///< static displacement: mean of the dam nodes on each base node [m]
     Unknowns u_base;       ///< displacement at the end of the last step [m]
@@ -40,6 +40,24 @@ namespace Voussoir
     Unknowns v_predicted;  ///< velocity that advance() predicted for the end of the step [m/s]
     Unknowns force;        ///< force of the rock on the base nodes in this step [N]
     Unknowns force_before; ///< the same in the previous step [N]
+  };
+
+  /** Explicit rock under an explicit dam: both take the same steps. The base nodes carry the masses of both, and the
+   * forces of the rock on these nodes follow from their displacement, so the whole is one leapfrog rule. It is stable
+   * below the smaller one of the critical steps of dam and rock (Rayleigh quotient). */
+  class CommonStepRock : public PartitionedRock, public StepNeighbour
+  {
+  public:
+    using PartitionedRock::PartitionedRock;
+
+    std::string    about_steps() const override;
+    StepNeighbour *step_neighbour(Structure &) override { return this; }
+    void           advance(Unknowns &) override {} ///< StepNeighbour::advance() does
+    void           update_from_dam(const DynamicState &state) override { finish_step(state.time); }
+    Vector3        base_velocity() const override { return {}; }
+
+    void add_forces(Unknowns &load) const override;
+    void advance(const Unknowns &u, const Unknowns &w) override;
   };
 } // namespace Voussoir
 

@@ -36,7 +36,11 @@ namespace Voussoir
     const Scene &scene() const { return dam->scene; }
 
     /** Returns the time steps of dam and rock, and the number of steps. */
-    TimeGrid grid() const { return {motion.dt, scene().foundation.n_substeps(), n_steps}; }
+    TimeGrid grid() const
+    {
+      return {motion.dt, scene().is_explicit() ? scene().n_explicit : scene().foundation.n_substeps(),
+              n_steps};
+    }
 
     /** Returns true if all steps of the run are done. */
     bool is_last() const { return step == n_steps; }
