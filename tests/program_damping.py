@@ -43,7 +43,7 @@ def entries():
     runs("scene.prm", "--output", "coefficients", *short, *given)
     same("ratio", "coefficients", 1e-8, ("history",))
     warned = voussoir("scene.prm", "--validate", *settings("Damping/Model=uniform", "Damping/Frequency 1=2")).stdout
-    expect("Damping/Frequency 1" in warned and "no effect: Damping/Model is uniform" in warned, warned)
+    expect("Damping/Frequency 1" in warned and "no effect: The damping is uniform" in warned, warned)
     warned = voussoir("scene.prm", "--validate", *settings("Damping/Model=uniform", "Damping/Terms=1")).stdout
     expect('Increase "Damping/Terms"' in warned, warned)
 
@@ -94,6 +94,28 @@ def explicit():
         expect(off < OFF[name] and error < 1e-10, f"{name}: openings off by {off}, energy balance {error}")
 
 
+def scaling():
+    """Mass scaling makes the step of an own mesh with slivers longer by half, says so in a warning, and changes the openings little; it is for own meshes only."""
+    write_scene()
+    runs("mesh", "scene.prm", "--output", "own.msh", *settings("Mesh/Arch210/Equal rows=true", "Mesh/Arch210/Elements along=18", "Mesh/Arch210/Elements up=12"))
+    common = ["scene.prm", *settings("Dynamics/Scheme=explicit", "Motion/Duration=0.5", "Output/Figures=false", "Damping/Reference frequency=2")]
+    own = settings("Mesh/Source=file", "Mesh/File=own.msh")
+
+    def critical(output, *entries):
+        text = runs(*common, "--output", output, *own, *settings(*entries))
+        return 1e-3 * float(re.search(r"explicit scheme for the dam (\S+) ms", text)[1]), text
+
+    before, _ = critical("plain")
+    after, text = critical("scaled", f"Dynamics/Mass scaling={1.5 * before:.6g}")
+    added = float(re.search(r"Mass scaling\" adds (\S+) % to the mass", text)[1])
+    openings = [summary(d)["extremes"]["max_opening"]["value"] for d in ("plain", "scaled")]
+    print(f"    critical step {1e3 * before:.3f} and {1e3 * after:.3f} ms, {added} % of mass, openings {openings}")
+    expect(1.5 * before / .95 <= after < 1.05 * 1.5 * before / .95 and 0. < added < 5., f"critical steps {before} and {after}, {added} % of mass")
+    expect(abs(openings[1] / openings[0] - 1.) < .05 and summary("scaled")["energy_balance_error"] < 1e-10, f"openings {openings}")
+    expect("Mass scaling" not in critical("idle", f"Dynamics/Mass scaling={.5 * before:.6g}")[1].replace("Dynamics/Mass scaling=", ""), "no mass is needed")
+    refused([*common, "--validate", *settings("Dynamics/Mass scaling=0.001")], "Mass scaling", "meshes from files")
+
+
 def pulse():
     """After a pulse the explicit dam on rock comes to rest, with a step of 0.99 of the critical one; a step of 1.01 is refused."""
     write_scene()
@@ -117,4 +139,4 @@ def pulse():
 
 
 if __name__ == "__main__":
-    run_cases(foundations, entries, modes, explicit, pulse)
+    run_cases(foundations, entries, modes, explicit, scaling, pulse)

@@ -120,7 +120,7 @@ namespace Voussoir
          {"Dynamics/Factors", "Foundation/Substeps", "Foundation/Coupling"}},
         {"Dynamics/Scheme is trapezoidal",
          [](const Scene &s) { return !s.is_explicit(); },
-         {"Dynamics/Explicit step"}},
+         {"Dynamics/Explicit step", "Dynamics/Mass scaling"}},
         {"Motion/Source is artificial",
          [](const Scene &s) { return s.motion.source == "artificial"; },
          {"Motion/File", "Motion/File x", "Motion/File y", "Motion/File z", "Motion/Baseline",

@@ -10,6 +10,7 @@
 #include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/static_path.h>
 #include <voussoir/dynamics/leapfrog.h>
+#include <voussoir/dynamics/mass_scaling.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/output/energy_check.h>
 
@@ -122,12 +123,41 @@ namespace Voussoir
 
   namespace
   {
+    /** Adds mass to the nodes that limit the critical step, for Scene::mass_scaling. @p rock: masses of the rock [kg]. */
+    void scale_mass(Dam &dam, const std::vector<Matrix3> &rock)
+    {
+      const CriticalStep        before = critical_step(dam.structure, rock);
+      const std::vector<double> added = mass_scaling(dam.structure, rock, dam.scene.mass_scaling / .95);
+      double                    total = 0., of_dam = 0.;
+      std::size_t               n = 0;
+      for (std::size_t i = 0; i < added.size(); ++i)
+      {
+        of_dam += dam.structure.mass[i][0] - rock[i][0];
+        total += added[i];
+        n += added[i] > 0.;
+        for (unsigned int c = 0; c < 3; ++c)
+        {
+          dam.structure.mass[i][4 * c] += added[i];
+          dam.inertia[c][3 * i + c] -= added[i];
+        }
+      }
+      if (n > 0)
+        dam.facts.warnings.push_back("\"Dynamics/Mass scaling\" adds " + number_text(100. * total / of_dam) +
+                                     " % to the mass of dam and water at " + std::to_string(n) + " of " +
+                                     std::to_string(added.size()) + " nodes, most near the elements at " +
+                                     dam.model->place_of(before.node) + " (critical step without it " +
+                                     number_text(1e3 * before.length) +
+                                     " ms). The results change; compare with a run without it.");
+    }
+
     /** Computes the critical step of the dam, and where it comes from. */
     void find_critical_step(Dam &dam)
     {
       Structure rock;
       rock.mass.assign(dam.structure.n_nodes(), Matrix3{});
       dam.foundation->add_mass(rock);
+      if (dam.scene.is_explicit() && dam.scene.mass_scaling > 0.)
+        scale_mass(dam, rock.mass);
       const CriticalStep critical = critical_step(dam.structure, rock.mass);
       dam.facts.critical_step = critical.length;
       dam.facts.critical_place = dam.model->place_of(critical.node);

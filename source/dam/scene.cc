@@ -337,6 +337,14 @@ namespace Voussoir
     loads.add_parameters(prm);
     motion.add_parameters(prm);
     foundation.add_parameters(prm);
+    add_dynamics(prm);
+    contact.add_parameters(prm);
+    limits.add_parameters(prm);
+    output.add_parameters(prm);
+  }
+
+  void Scene::add_dynamics(Entries &prm)
+  {
     prm.enter_subsection("Dynamics");
     prm.add_parameter(
         "Steps per sample", steps_per_sample,
@@ -351,6 +359,11 @@ namespace Voussoir
         "-1: 0.95 of the critical step.",
         {-1., .01}, Patterns::Double(-1.));
     prm.add_parameter(
+        "Mass scaling", mass_scaling,
+        "Step of the scheme explicit that mass added to the smallest elements of a mesh from a file allows [s]. The log "
+        "tells the mass, which is an error of the model. 0: none.",
+        {0., .005}, Patterns::Double(0.));
+    prm.add_parameter(
         "Impact", impact_rule,
         "Joint forces and velocities of closed joints. mean-force: the forces are means over "
         "the step, so joints never create energy. For comparison: paper (Taylor and Papadopoulos) and none "
@@ -363,9 +376,6 @@ namespace Voussoir
                       "double on subcycled rock, and on massless rock that is not one body with the dam.",
                       Patterns::Selection("double|single"));
     prm.leave_subsection();
-    contact.add_parameters(prm);
-    limits.add_parameters(prm);
-    output.add_parameters(prm);
   }
 
   std::vector<ModelChoice> Scene::model_choices() const
@@ -483,6 +493,33 @@ namespace Voussoir
                          "). Choose another one with --output.");
   }
 
+  void Scene::check_explicit() const
+  {
+    const auto refuse = [](const std::string &why) {
+      throw InputError("\"Dynamics/Scheme\" = explicit " + why + ", or \"Dynamics/Scheme\" to trapezoidal.");
+    };
+    if (foundation.model == "rock" && damping.law().mass > 0. && motion.source != "none")
+      refuse("on rock has no mass-proportional damping, which would brake the motion of the rock. Set "
+             "\"Damping/Model\" to uniform");
+    if (reservoir.is_meshed())
+      refuse("has no " + reservoir.model +
+             " water. Set \"Reservoir/Model\" to an added mass, such as Westergaard");
+    if (mass_scaling > 0. && mesh.source != "file")
+      throw InputError(
+          "Entry \"Dynamics/Mass scaling\" is for meshes from files. Remove it, and enlarge the smallest elements of the "
+          "generated mesh (\"" +
+          mesh.section() + "/Smallest height\").");
+    if (!(explicit_step > 0. || explicit_step == -1.))
+      refuse("requires a step. Set \"Dynamics/Explicit step\" to -1");
+    if (impact_rule != "mean-force" || contact.write_problems)
+      refuse("has no rule of impact and no contact problems. Set \"Dynamics/Impact\" to mean-force and "
+             "\"Contact/Write problems\" to false");
+    if (damping.law().stiffness > 0. && motion.source != "none")
+      refuse(
+          "has no stiffness-proportional damping, which would require a step of about 0.02 ms. Set \"Damping/Model\" to "
+          "uniform, or \"Damping/Mass coefficient\" with \"Stiffness coefficient\" = 0");
+  }
+
   void Scene::complete()
   {
     damping.with_explicit = is_explicit();
@@ -507,27 +544,7 @@ namespace Voussoir
                        "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "
                        "\"Foundation/Substeps\" to 1.");
     if (is_explicit())
-    {
-      const auto refuse = [](const std::string &why) {
-        throw InputError("\"Dynamics/Scheme\" = explicit " + why +
-                         ", or \"Dynamics/Scheme\" to trapezoidal.");
-      };
-      if (foundation.model == "rock" && damping.law().mass > 0. && motion.source != "none")
-        refuse("on rock has no mass-proportional damping, which would brake the motion of the rock. Set "
-               "\"Damping/Model\" to uniform");
-      if (reservoir.is_meshed())
-        refuse("has no " + reservoir.model +
-               " water. Set \"Reservoir/Model\" to an added mass, such as Westergaard");
-      if (!(explicit_step > 0. || explicit_step == -1.))
-        refuse("requires a step. Set \"Dynamics/Explicit step\" to -1");
-      if (impact_rule != "mean-force" || contact.write_problems)
-        refuse("has no rule of impact and no contact problems. Set \"Dynamics/Impact\" to mean-force and "
-               "\"Contact/Write problems\" to false");
-      if (damping.law().stiffness > 0. && motion.source != "none")
-        refuse(
-            "has no stiffness-proportional damping, which would require a step of about 0.02 ms. Set \"Damping/Model\" to "
-            "uniform, or \"Damping/Mass coefficient\" with \"Stiffness coefficient\" = 0");
-    }
+      check_explicit();
     if (foundation.model == "rock" && foundation.is_subcycled() && impact_rule != "mean-force")
       throw InputError("Subcycled rock (\"Foundation/Substeps\" above 1, or \"Foundation/Coupling\" = mean "
                        "traction) requires \"Dynamics/Impact\" = mean-force, not " +

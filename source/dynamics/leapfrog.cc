@@ -158,21 +158,31 @@ namespace Voussoir
   {
     const double a = .5 * h * structure.damping.mass, keep = (1. - a) / (1. + a);
     next.resize(now.u.size());
+    constexpr std::size_t per_chunk = 256; // nodes
+    const std::size_t     n = structure.n_nodes();
 #pragma omp parallel for schedule(static)
-    for (int i = 0; i < static_cast<int>(structure.n_nodes()); ++i)
+    for (int chunk = 0; chunk < static_cast<int>((n + per_chunk - 1) / per_chunk); ++chunk)
     {
-      Vector3 f;
-      for (unsigned int c = 0; c < 3; ++c)
+      const std::size_t begin = 3 * per_chunk * chunk, end = std::min(begin + 3 * per_chunk, 3 * n);
+      double            w[3 * per_chunk], f[3 * per_chunk];
+      structure.damping.relaxed(now.relaxation, now.u, now.Ku, begin, end, w, f);
+      double       *mean = now.relaxation.mean.data() + begin, *v = next.data() + begin;
+      const double *before = now.load.data() + begin, *after = load.data() + begin,
+                   *other = outer.data() + begin, *old = now.v.data() + begin, part = 1. / n_steps;
+#pragma omp simd
+      for (std::size_t k = 0; k < end - begin; ++k)
       {
-        const std::size_t k = 3 * i + c;
-        now.relaxation.mean[k] +=
-            (now.u[k] + structure.damping.more_displacement(now.relaxation, now.u[k], k)) / n_steps;
-        f[c] = (1. - share) * now.load[k] + share * load[k] + outer[k] - now.Ku[k] -
-               structure.damping.more_force(now.relaxation, now.Ku[k], k);
+        mean[k] += part * w[k];
+        f[k] = (1. - share) * before[k] + share * after[k] + other[k] - f[k];
+        v[k] = keep * old[k];
       }
-      const Vector3 a_i = clusters.inverse_masses()[i] * f;
-      for (unsigned int c = 0; c < 3; ++c)
-        next[3 * i + c] = keep * now.v[3 * i + c] + gain * a_i[c];
+      for (std::size_t i = 0; 3 * i < end - begin; ++i)
+      {
+        const Vector3 a_i =
+            clusters.inverse_masses()[begin / 3 + i] * Vector3{{f[3 * i], f[3 * i + 1], f[3 * i + 2]}};
+        for (unsigned int c = 0; c < 3; ++c)
+          v[3 * i + c] += gain * a_i[c];
+      }
     }
   }
 
@@ -329,9 +339,9 @@ namespace Voussoir
     work.opening -= elastic;
   }
 
-  /** Sets the kinetic and the strain energies of the middle of a step to @p u. @p more: strain energy of damping and
+  /** Sets the kinetic and the strain energies of the middle of a step to #u. @p more: strain energy of damping and
    * neighbour [J]. */
-  void Leapfrog::account(const Unknowns &u, const Unknowns &Ku, const double more)
+  void Leapfrog::account(const double more)
   {
     const auto energy = [&](const std::size_t begin, const std::size_t end)
     {
@@ -378,10 +388,10 @@ namespace Voussoir
       return std::array<double, 2>{{input, damping}};
     };
     const auto works = sum_of_ranges<std::array<double, 2>>(structure.n_nodes(), move_nodes);
-    Unknowns   u = now.u, Ku;
-#pragma omp parallel for schedule(static)
+    u.resize(now.u.size());
+#pragma omp parallel for simd schedule(static)
     for (int k = 0; k < static_cast<int>(u.size()); ++k)
-      u[k] += h * next[k];
+      u[k] = now.u[k] + h * next[k];
     Stopwatch clock;
     structure.multiply_stiffness(u, Ku);
     spent.substitutions += clock.seconds();
@@ -398,7 +408,7 @@ namespace Voussoir
       work.input += neighbour->strain() - before;
     }
     if (is_last)
-      account(u, Ku, outside);
+      account(outside);
     now.u.swap(u);
     now.Ku.swap(Ku);
     now.v.swap(next);

@@ -124,7 +124,7 @@ def main():
                 relations = (*ALWAYS, *chosen(number, scene, idle, met, 4 if options.tenth else 3))
                 checks.append(pool.submit(all_checked, case, relations))
             elif rows[-1][2] != "failed":
-                net.scenes.pop()  # its pairs remain open
+                net.unsolved()
         rows += [row for check in checks for row in check.result()]
     print("\n| relation | holds | does not apply | failed |\n|---|---|---|---|")
     for name in dict.fromkeys(row[1] for row in rows):

@@ -83,6 +83,7 @@ class Net:
         self.pairs = {frozenset(pair) for pair in itertools.combinations(self.levels, 2) if pair[0][0] != pair[1][0]}
         # Sets of levels with a message; (factor, other levels with which it has no effect); pairs that follow from these.
         self.refused, self.idle, self.ruled_out = {}, set(), set()
+        self.tries = Counter()  # scenes drawn for a pair, and scenes with it that have no solution
 
     def write(self, name, entries):
         """A scene file, and the mesh that it requires."""
@@ -254,6 +255,11 @@ class Net:
             scene[name] = self.random.choice(allowed.get(name) or [default[name]])
         return None
 
+    def unsolved(self):
+        """Removes the last scene: its pairs remain open, and are drawn again at most three times."""
+        scene, _ = self.scenes.pop()
+        self.tries.update(map(frozenset, itertools.combinations(scene.items(), 2)))
+
     def counts(self):
         covered, n_open = self.covered(), len(self.open_pairs())
         alone = {x for levels in self.refused if len(levels) == 1 for x in levels}
@@ -261,10 +267,9 @@ class Net:
         return f"{len(covered)} pairs covered, {refused} refused, {len(self.pairs) - len(covered) - refused - n_open} without effect, {n_open} open"
 
     def draw(self, n_scenes):
-        """Adds scenes, with their factors without effect, until all pairs are covered, and yields them. The caller may remove the last one."""
-        tries = Counter()
+        """Adds scenes, with their factors without effect, until all pairs are covered, and yields them. The caller may remove the last one: unsolved()."""
         while len(self.scenes) < n_scenes:
-            wanted = {pair for pair in self.open_pairs() if tries[pair] < 3}
+            wanted = {pair for pair in self.open_pairs() if self.tries[pair] < 3}
             seeds = self.random.sample(sorted(map(sorted, wanted)), min(8, len(wanted)))
             self.ruled_out |= {frozenset(seed) for seed in seeds if self.is_ruled_out(seed)}
             seeds = [seed for seed in seeds if frozenset(seed) not in self.ruled_out]
@@ -274,7 +279,7 @@ class Net:
                 continue
             _, scene, seed = max(((*self.candidate(wanted, seed), seed) for seed in seeds), key=lambda x: x[0])
             facts = self.accepted(scene, dict(seed))
-            tries[frozenset(seed)] += 1
+            self.tries[frozenset(seed)] += 1
             if facts:
                 self.scenes.append((scene, self.learn_idle(scene, facts)))
                 yield self.scenes[-1]

@@ -139,6 +139,7 @@ namespace Voussoir
     std::string          impact_rule = "mean-force"; ///< "Dynamics/Impact"
     std::string          scheme = "trapezoidal";     ///< time scheme of integrator_table()
     double               explicit_step = -1.;        ///< [s]; -1: from the critical step
+    double               mass_scaling = 0.;          ///< wanted explicit step of own meshes [s]; 0: none
     unsigned int         n_explicit = 1; ///< steps of an explicit scheme in a time step, set by Simulation
     std::string          factors = "single"; ///< precision of the matrix factors of time steps
     MeshParameters       mesh;
@@ -201,6 +202,10 @@ namespace Voussoir
     /** Throws InputError if the output @p file of a command is an input of the scene, or if its directory
      * does not exist. */
     void check_output(const std::string &file) const;
+
+  private:
+    void add_dynamics(Entries &prm);
+    void check_explicit() const; ///< what the explicit scheme does not have
   };
 
   /** Reads an input file with its included files. Entries without effect and implausible values are reported

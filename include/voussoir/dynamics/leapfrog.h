@@ -66,7 +66,7 @@ namespace Voussoir
     void         solve_joints(bool is_last, ContactResult &result, Work &work);
     void         add_work_of_joints(Work &work) const;
     void         move(double share, const Unknowns &load, bool is_last, Work &work);
-    void         account(const Unknowns &u, const Unknowns &Ku, double more);
+    void         account(double more);
 
     const double             dt;
     const unsigned int       n_steps; ///< steps h in dt
@@ -78,6 +78,7 @@ namespace Voussoir
     std::vector<PairState>   states;
     SystemTimes              spent;
     Unknowns                 next;                       ///< velocity at the end of the step h [m/s]
+    Unknowns                 u, Ku;                      ///< displacement at this time [m], and K u [N]
     Unknowns                 pair_force;                 ///< joint forces of the step h [N]
     Unknowns                 gap_before, gap, gap_after; ///< of the steps k - 1, k and k + 1 [m]
     std::vector<std::size_t> memory_begin;               ///< of each pair

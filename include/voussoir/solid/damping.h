@@ -101,8 +101,9 @@ namespace Voussoir
     /** Returns the energy stored by the relaxing body minus u K u / 2 [J], zero in the static state. */
     double more_energy(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku) const;
 
-    /** Returns component @p k of w - u [m]. @p u: component of the displacement. */
-    double more_displacement(const DampingMemory &memory, double u, std::size_t k) const;
+    /** Sets @p w [m] and @p Kw [N] to the components from @p begin to @p end, without the last one, of w and K w. */
+    void relaxed(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku, std::size_t begin,
+                 std::size_t end, double *w, double *Kw) const;
 
     /** Returns component @p k of K (w - u) [N]. @p Ku: component of K u. */
     double more_force(const DampingMemory &memory, double Ku, std::size_t k) const;
