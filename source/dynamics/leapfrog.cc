@@ -81,6 +81,8 @@ namespace Voussoir
         states(structure.pairs.size(), PairState::open)
   {
     check(structure);
+    if (structure.damping.relaxes())
+      single = std::make_unique<SingleStiffness>(structure);
     std::size_t at = 0;
     for (const JointLaw *law : laws.of_pair)
     {
@@ -91,10 +93,11 @@ namespace Voussoir
 
   double Leapfrog::memory() const
   {
-    double values = 14. * now.u.size(); // vectors of the state
+    double bytes =
+        14. * sizeof(double) * now.u.size() + (single ? single->memory() : 0.); // vectors of the state
     for (const Body &body : structure.bodies)
-      values += 10. * body.stiffness.value.size();
-    return values * sizeof(double);
+      bytes += 10. * sizeof(double) * body.stiffness.value.size();
+    return bytes;
   }
 
   ContactResult Leapfrog::advance(const Unknowns &load, const Vector3 &)
@@ -352,7 +355,13 @@ namespace Voussoir
         kinetic += .5 * dot(v, structure.mass[i] * v);
         if (!structure.added_mass.empty())
           water += .5 * dot(v, structure.added_mass[i] * v);
-        strain += .5 * dot(before, get(Ku, i));
+        if (const DampingMemory &rest = now.relaxation; single) // K in single precision acts on u - u_static
+        {
+          const Vector3 from = before - get(rest.u_static, i), f = get(rest.Ku_static, i);
+          strain += .5 * (dot(from, get(Ku, i) - f) + dot(sum_of(from, get(u, i)), f));
+        }
+        else
+          strain += .5 * dot(before, get(Ku, i));
         for (unsigned int c = 0; c < 3 && !elastic_force.empty(); ++c)
           strain -= .5 * elastic_force[3 * i + c] * (before[c] + u[3 * i + c]);
       }
@@ -393,7 +402,10 @@ namespace Voussoir
     for (int k = 0; k < static_cast<int>(u.size()); ++k)
       u[k] = now.u[k] + h * next[k];
     Stopwatch clock;
-    structure.multiply_stiffness(u, Ku);
+    if (single)
+      single->multiply(u, now.relaxation.u_static, now.relaxation.Ku_static, Ku);
+    else
+      structure.multiply_stiffness(u, Ku);
     spent.substitutions += clock.seconds();
     const Damping::Energies relaxed =
         structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation);

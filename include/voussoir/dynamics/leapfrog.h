@@ -5,6 +5,7 @@
 #include <voussoir/dynamics/integrator.h>
 #include <voussoir/dynamics/pair_clusters.h>
 #include <voussoir/dynamics/support.h>
+#include <voussoir/solid/single_stiffness.h>
 
 namespace Voussoir
 {
@@ -68,12 +69,14 @@ namespace Voussoir
     void         move(double share, const Unknowns &load, bool is_last, Work &work);
     void         account(double more);
 
-    const double             dt;
-    const unsigned int       n_steps; ///< steps h in dt
-    const double             h;       ///< [s]
-    const double             gain;    ///< change of momentum per force, with the damping of the mass [s]
-    StepNeighbour *const     neighbour;
-    Unknowns                 outer; ///< forces of the neighbour at the start of the step h [N]
+    const double         dt;
+    const unsigned int   n_steps; ///< steps h in dt
+    const double         h;       ///< [s]
+    const double         gain;    ///< change of momentum per force, with the damping of the mass [s]
+    StepNeighbour *const neighbour;
+    std::unique_ptr<SingleStiffness>
+                             single; ///< with memory of the damping, which has the state of rest; or null
+    Unknowns                 outer;  ///< forces of the neighbour at the start of the step h [N]
     const PairClusters       clusters;
     std::vector<PairState>   states;
     SystemTimes              spent;
