@@ -202,7 +202,7 @@ namespace Voussoir
     prm.enter_subsection("Output");
     prm.add_parameter(
         "Probes", probes,
-        "Points whose displacement and absolute acceleration are written to history.csv, as \"name: x y z; name: x y z\" [m]. Values "
+        "Points whose displacement, velocity (both relative to the base) and absolute acceleration are written to history.csv, as \"name: x y z; name: x y z\" [m]. Values "
         "are interpolated in the element; at a joint it is that towards the right bank.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter(
@@ -282,7 +282,7 @@ namespace Voussoir
     {
       const bool taken = probe.first == "crest" || probe.first == "crest_left" || probe.first == "base" ||
                          probe.first == "ground" ||
-                         std::regex_match(probe.first, std::regex(".*_acceleration|pressure_.*"));
+                         std::regex_match(probe.first, std::regex(".*_(acceleration|velocity)|pressure_.*"));
       const std::string entry = "Entry \"Output/Probes\": ";
       const std::string example = " Separate probes by semicolons, as in \"name: x y z; name: x y z\".";
       if (probe.first.empty())
@@ -291,7 +291,7 @@ namespace Voussoir
         throw InputError(
             entry + "\"" + probe.first +
             "\" cannot be the name of a probe, because it names another column of history.csv or "
-            "floor_spectra.csv. Choose another name, without \"_acceleration\" at its end.");
+            "floor_spectra.csv. Choose another name, without \"_acceleration\" or \"_velocity\" at its end.");
       if (probe.first.find_first_of(",\"") != std::string::npos)
         throw InputError(entry + "\"" + probe.first +
                          "\" cannot be the name of a probe, because it becomes a column of history.csv, "
@@ -350,6 +350,11 @@ namespace Voussoir
         "Length of the steps of the scheme explicit [s]; they are shortened to divide a time step, at whose end results are recorded. "
         "-1: 0.95 of the critical step.",
         {-1., .01}, Patterns::Double(-1.));
+    prm.add_parameter(
+        "Initial velocity", initial_velocity,
+        "Velocities of blocks at the start, relative to the base, as \"BLOCK: vx vy vz; BLOCK: ...\" in "
+        "m/s. BLOCK is all, or a name such as monolith 2 or monolith 2 lift 1.",
+        Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter(
         "Impact", impact_rule,
         "Joint forces and velocities of closed joints. mean-force: the forces are means over "
@@ -441,6 +446,8 @@ namespace Voussoir
       add("Mesh/File", mesh.file);
     if (mesh.source == "arcs")
       add("Mesh/Arcs/Table", mesh.arcs.table);
+    for (const ForceHistory &force : loads.force_histories())
+      add("Loads/Force history", force.file);
     add("Loads/Temperature/Table", loads.temperature.table);
     if (reservoir.model == "added mass table")
       add("Reservoir/Table", reservoir.table);
@@ -483,8 +490,29 @@ namespace Voussoir
                          "). Choose another one with --output.");
   }
 
+  std::map<int, Vector3> Scene::initial_velocities() const
+  {
+    std::map<int, Vector3> velocities;
+    for (const auto &[name, text] : initial_velocity)
+    {
+      std::istringstream in(text);
+      std::string        more;
+      Vector3            v{};
+      const int          block = name == "all" ? 0 : physical_id(3, name);
+      if (block < 0 || (block > 0 && !is_monolith(block)) || !(in >> v[0] >> v[1] >> v[2]) || in >> more)
+        throw InputError(
+            "Entry \"Dynamics/Initial velocity\" has \"" + name + ": " + text +
+            "\"; write \"BLOCK: vx vy vz\" in m/s, where BLOCK is all, or a name such as monolith 2.");
+      velocities[block] = v;
+    }
+    return velocities;
+  }
+
   void Scene::check() const
   {
+    if (!initial_velocities().empty() && foundation.model != "rigid")
+      throw InputError("Entry \"Dynamics/Initial velocity\" requires \"Foundation/Model\" = rigid, not " +
+                       foundation.model + ".");
     mesh.check();
     zone_materials(concrete_zones, "Concrete/Zones");
     foundation.zone_materials();
@@ -514,7 +542,7 @@ namespace Voussoir
       if (impact_rule != "mean-force" || contact.write_problems)
         refuse("has no rule of impact and no contact problems. Set \"Dynamics/Impact\" to mean-force and "
                "\"Contact/Write problems\" to false");
-      if (damping.law().stiffness > 0. && motion.source != "none")
+      if (damping.law().stiffness > 0. && (motion.source != "none" || moves_alone()))
         refuse(
             "has no stiffness-proportional damping, which would require a step of about 0.02 ms. Set \"Damping/Model\" to "
             "uniform, or \"Damping/Mass coefficient\" with \"Stiffness coefficient\" = 0");
