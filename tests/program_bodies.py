@@ -6,7 +6,7 @@
 """
 
 import sys
-from math import asin, atan, cos, pi, sin, sqrt, tan
+from math import asin, atan, cos, pi, sin, sqrt
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -80,8 +80,10 @@ def force():
             stopped(15, f"{name}.prm", "killed", *chosen)
             runs(f"{name}.prm", "--output", "killed", *chosen, "--resume")
             same_to_the_bit(name, "killed")
-    for text, *parts in (("a: 0 0 0; 0 0 1", "FILE"), ("a: 0.2 0.2 0.4; 0 0 0; step.txt", "direction"), ("a: 0.2 0.2 9; 0 0 1; step.txt", "force \"a\"", "from the dam"),
-                         ("a: 0.2 0.2 0.4; 0 0 1; step.txt; b: 0 0 0; 0 0 1; step.txt", 'force "b"', "fixed base"), ("a: 0.2 0.2 0.4; 0 0 1; no.txt", "no.txt")):
+    for text, *parts in (("a: 0 0 0; 0 0 1", "FILE"), ("a: 0.2 0.2 0.4; 0 0 0; step.txt", "direction"),
+                         ("a: 0.2 0.2 9; 0 0 1; step.txt", "force \"a\"", "from the dam"),
+                         ("a: 0.2 0.2 0.4; 0 0 1; step.txt; b: 0 0 0; 0 0 1; step.txt", 'force "b"', "fixed base"),
+                         ("a: 0.2 0.2 0.4; 0 0 1; no.txt", "no.txt")):
         refused(["release_explicit.prm", "--validate", *settings(f"Loads/Force history={text}")], "Force history", *parts)
     write("back.txt", "0 0\n1 0\n0.5 1\n")
     refused(["release_explicit.prm", "--validate", *settings("Loads/Force history=a: 0.2 0.2 0.4; 0 0 1; back.txt")], "back.txt, line 3", "0.5 s")

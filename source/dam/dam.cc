@@ -50,6 +50,27 @@ namespace Voussoir
             "that are not tied.");
     }
 
+    /** Adds warnings about what a dam has, but other blocks need not have. */
+    void note_shape(Dam &dam)
+    {
+      std::vector<std::string> &warnings = dam.facts.warnings;
+      if (const std::string names = bodies_without_base(*dam.model); !names.empty())
+      {
+        dam.has_free_bodies = true;
+        warnings.push_back(names +
+                           ": no node on the surface \"base\", so only contact holds these blocks. If they "
+                           "are part of a dam, extend their joints to the base.");
+      }
+      if (!dam.geometry->has_crest)
+        warnings.push_back(
+            "the surfaces \"crest\" and \"upstream\" do not meet, or are missing. Results of the crest are "
+            "those of the highest nodes of the mesh. For a dam, add both surfaces.");
+      if (const auto &flat = dam.layout.without_keys; !flat.empty())
+        warnings.push_back("Shear keys cannot cross joints: " + std::to_string(flat.size()) +
+                           " joints with the law KSM, the first " + dam.layout.joints[*flat.begin()].name() +
+                           ", are flat (FJA) at the nodes where they cross other joints.");
+    }
+
     /** Throws InputError if the model cannot be in plane strain. */
     void check_plane_strain(const Scene &scene, const Foundation &foundation, const HexMesh &opened)
     {
@@ -102,15 +123,7 @@ namespace Voussoir
     for (const std::string &warning : mesh_warnings(opened, scene, facts.concrete_zones))
       facts.warnings.push_back(warning);
     assemble(opened, source);
-    if (!geometry->has_crest)
-      facts.warnings.push_back(
-          "the surfaces \"crest\" and \"upstream\" do not meet, or are missing. Results of the crest are "
-          "those of the highest nodes of the mesh. For a dam, add both surfaces.");
-    if (!layout.without_keys.empty())
-      facts.warnings.push_back(
-          "Shear keys cannot cross joints: " + std::to_string(layout.without_keys.size()) +
-          " joints with the law KSM, the first " + layout.joints[*layout.without_keys.begin()].name() +
-          ", are flat (FJA) at the nodes where they cross other joints.");
+    note_shape(*this);
     layout.assign_laws(structure, foundation->base() == Foundation::Base::tied ? nodes_of_base()
                                                                                : std::set<unsigned int>());
     add_loads();
@@ -204,13 +217,6 @@ namespace Voussoir
       if (layout.has_open_lifts || (layout.has_open_bases && foundation->uses_rock()))
         find_weight_on_joints();
       geometry = std::make_unique<DamGeometry>(*model, structure.pairs, n_all, source);
-    }
-    if (const std::string names = bodies_without_base(*model); !names.empty())
-    {
-      has_free_bodies = true;
-      facts.warnings.push_back(names +
-                               ": no node on the surface \"base\", so only contact holds these blocks. If "
-                               "they are part of a dam, extend their joints to the base.");
     }
     structure.damping = scene.damping.law();
     foundation->add_stiffness(*model, structure);

@@ -307,6 +307,45 @@ namespace Voussoir
     return places;
   }
 
+  namespace
+  {
+    void add_dynamics(Scene &scene, Entries &prm)
+    {
+      prm.enter_subsection("Dynamics");
+      prm.add_parameter(
+          "Steps per sample", scene.steps_per_sample,
+          "Number of time steps per sampling interval of the ground motion [-]. The motion is linear between "
+          "its samples. With rock the time step must be below the critical one, which --validate prints.",
+          Patterns::Integer(1));
+      prm.add_parameter("Scheme", scene.scheme, "Time integration. " + integrator_docs() + ".",
+                        Patterns::Selection(integrator_names()));
+      prm.add_parameter(
+          "Explicit step", scene.explicit_step,
+          "Length of the steps of the scheme explicit [s]; they are shortened to divide a time step, at whose end results are recorded. "
+          "-1: 0.95 of the critical step.",
+          {-1., .01}, Patterns::Double(-1.));
+      prm.add_parameter(
+          "Initial velocity", scene.initial_velocity,
+          "Velocities of blocks at the start, relative to the base, as \"BLOCK: vx vy vz; BLOCK: ...\" in "
+          "m/s. BLOCK is all, or a name such as monolith 2 or monolith 2 lift 1.",
+          Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
+      prm.add_parameter(
+          "Impact", scene.impact_rule,
+          "Joint forces and velocities of closed joints. mean-force: the forces are means over "
+          "the step, so joints never create energy. For comparison: paper (Taylor and Papadopoulos) and none "
+          "(plain Newmark, which oscillates).",
+          Patterns::Selection(impact_rule_names()));
+      prm.add_parameter(
+          "Factors", scene.factors,
+          "Precision of the matrix factors of the monoliths. single: half of the memory and of "
+          "the memory traffic of a step. The unknown is then the displacement increment, and the "
+          "residual of the equations of motion is added to the next step (doc/method.md). Always "
+          "double on subcycled rock, and on massless rock that is not one body with the dam.",
+          Patterns::Selection("double|single"));
+      prm.leave_subsection();
+    }
+  } // namespace
+
   void Scene::add_parameters(Entries &prm)
   {
     mesh.add_parameters(prm);
@@ -337,37 +376,7 @@ namespace Voussoir
     loads.add_parameters(prm);
     motion.add_parameters(prm);
     foundation.add_parameters(prm);
-    prm.enter_subsection("Dynamics");
-    prm.add_parameter(
-        "Steps per sample", steps_per_sample,
-        "Number of time steps per sampling interval of the ground motion [-]. The motion is linear between "
-        "its samples. With rock the time step must be below the critical one, which --validate prints.",
-        Patterns::Integer(1));
-    prm.add_parameter("Scheme", scheme, "Time integration. " + integrator_docs() + ".",
-                      Patterns::Selection(integrator_names()));
-    prm.add_parameter(
-        "Explicit step", explicit_step,
-        "Length of the steps of the scheme explicit [s]; they are shortened to divide a time step, at whose end results are recorded. "
-        "-1: 0.95 of the critical step.",
-        {-1., .01}, Patterns::Double(-1.));
-    prm.add_parameter(
-        "Initial velocity", initial_velocity,
-        "Velocities of blocks at the start, relative to the base, as \"BLOCK: vx vy vz; BLOCK: ...\" in "
-        "m/s. BLOCK is all, or a name such as monolith 2 or monolith 2 lift 1.",
-        Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
-    prm.add_parameter(
-        "Impact", impact_rule,
-        "Joint forces and velocities of closed joints. mean-force: the forces are means over "
-        "the step, so joints never create energy. For comparison: paper (Taylor and Papadopoulos) and none "
-        "(plain Newmark, which oscillates).",
-        Patterns::Selection(impact_rule_names()));
-    prm.add_parameter("Factors", factors,
-                      "Precision of the matrix factors of the monoliths. single: half of the memory and of "
-                      "the memory traffic of a step. The unknown is then the displacement increment, and the "
-                      "residual of the equations of motion is added to the next step (doc/method.md). Always "
-                      "double on subcycled rock, and on massless rock that is not one body with the dam.",
-                      Patterns::Selection("double|single"));
-    prm.leave_subsection();
+    add_dynamics(*this, prm);
     contact.add_parameters(prm);
     limits.add_parameters(prm);
     output.add_parameters(prm);
