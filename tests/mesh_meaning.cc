@@ -138,7 +138,8 @@ namespace
     for (const std::string unit : {"m", "mm"})
     {
       const std::string warning = check(scaled(1e-3), "x y z", unit);
-      for (const std::string part : {"0.01 m high", unit == "m" ? "km (then it is 10 m" : " m (then it is 10 m"})
+      for (const std::string part :
+           {"0.01 m high", unit == "m" ? "km (then it is 10 m" : " m (then it is 10 m"})
         expect(warning.find(part) != std::string::npos, "'" + part + "' is missing: " + warning);
     }
     MeshParameters parameters;
