@@ -37,7 +37,7 @@ benchmarks()
   scripts/build.sh
   local command status=0 code
   for command in "calculix.py benchmarks/calculix_arch210.prm --mass lumped" physics.py convergence.py key_limits.py \
-    "keys.py --mesh coarse --motions 1" "ranks_equal.py --seconds 600" peers.py water_staggering.py; do
+    "keys.py --mesh coarse --motions 1" "ranks_equal.py --seconds 600" peers.py water_staggering.py rebound.py; do
     echo "benchmarks/$command"
     code=0
     # shellcheck disable=SC2086 # words of a command

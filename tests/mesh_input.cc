@@ -195,7 +195,6 @@ namespace
     bad([](HexMesh &m) { m.nodes[3][1] = std::nan(""); }, {"some.msh", "node 4"});
     bad([](HexMesh &m) { std::swap(m.cells[1].nodes[0], m.cells[1].nodes[1]); },
         {"hexahedron 2", "monolith 2", "(0.5, 1.5, 0.5)", "inverted"});
-    bad([](HexMesh &m) { m.faces.clear(); }, {"'base'"});
     bad([](HexMesh &m) { m.cells[2].volume = 5; }, {"no monolith 3"});
     bad([](HexMesh &m) { m.cells[2].volume = 0; }, {"out of range"});
     bad([](HexMesh &m) { m.faces.push_back({{0, 1, 6, 7}, 2}); }, {"'upstream'", "no hexahedron"});

@@ -56,7 +56,6 @@ def lift():
     write_scene()
     bonded = ["scene.prm", *program_base.ARCH]
     refuse([*bonded, *LIFTS], (
-        ("Joints/Model=KSM", ("KSM", "keys")),
         ("Dynamics/Impact=paper", ("Joints cross", "mean-force")),
         ("Joints/Overrides=lift 2.7: tied", ("lift 2.7",)),
         ("Joints/Overrides=lift: tied", "Joints/Initial gaps=lift 2.1: 1 mm", ("lift 2.1", "tied")),

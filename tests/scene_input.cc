@@ -441,7 +441,7 @@ namespace
   {
     const LoadParameters loads;
     expect(loads.combinations.at("extreme") == "weight, water, tail water, silt, temperature, uplift, "
-                                               "concentrated, crest line, earthquake",
+                                               "concentrated, crest line, force history, earthquake",
            loads.combinations.at("extreme"));
     Scene scene;
     scene.reservoir.density = 0.;

@@ -101,7 +101,9 @@ namespace Voussoir
       const ArchRockParameters *rock = scene.mesh.generated_rock();
       const HexMesh             mesh =
           rock != nullptr && rock->enabled ? make_mesh(scene.mesh, scene.directory) : scene.hex_mesh();
-      check_axes_and_units(mesh, scene.mesh, scene.mesh.file);
+      if (const std::string warning = check_axes_and_units(mesh, scene.mesh, scene.mesh.file);
+          !warning.empty())
+        std::cerr << "voussoir: warning: " << warning << '\n';
       write_gmsh(mesh, arguments.value("--output"), format == "2.2" ? 2.2 : 4.1);
       print_mesh(mesh);
     }

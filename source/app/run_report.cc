@@ -94,7 +94,8 @@ namespace Voussoir
           log.line("          the last %.3f s of the motion do not reach the dam: the run ends at "
                    "\"Motion/Duration\"; with -1 the run is longer by the travel time of the waves",
                    delay);
-        if (const std::string warning = size_warning(report); !warning.empty())
+        if (const std::string warning = size_warning(report);
+            scene.motion.source != "none" && !warning.empty())
           log.line("warning: %s", warning.c_str());
       }
       const ArchRockParameters *rock = scene.mesh.generated_rock();

@@ -195,7 +195,9 @@ namespace Voussoir
     GroundMotion &motion = state.motion;
     unsigned int &n_steps = state.n_steps;
     motion = make_motion(scene.motion, scene.directory).refined(scene.steps_per_sample).scaled(factor);
-    n_steps = scene.motion.source == "none" || factor == 0. ? 0 : motion.acceleration.size() - 1;
+    n_steps = scene.moves_alone() || (scene.motion.source != "none" && factor != 0.)
+                  ? motion.acceleration.size() - 1
+                  : 0;
     rock_wedges(scene); // throws InputError before the dam is assembled
     check_water_size(scene, n_steps > 0 ? motion.dt : 0., log);
     make_dam();
@@ -206,6 +208,7 @@ namespace Voussoir
       scene.n_explicit = explicit_steps(*state.dam, motion.dt);
     const Dam &dam = *state.dam;
     loaded_wedges(scene, *dam.model); // throws InputError
+    dam.initial_velocity();           // throws InputError
     if (!scene.statics.stages.empty())
       StaticPath{*state.dam};                                // throws InputError for an invalid stage
     if (n_steps > 0 && scene.motion.duration_is_automatic()) // in whole samples

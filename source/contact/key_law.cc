@@ -105,10 +105,18 @@ namespace Voussoir
           ++memory[0];
       }
 
+      Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const override
+      {
+        if (is_clear(b) && contact_of(history) == Contact::flanks)
+          return {};
+        return SurfacesLaw::solve(H, b, history);
+      }
+
       void commit(const Vector3 &, const Vector3 &gap, const PairHistory &history,
                   double *memory) const override
       {
-        if (n_secondary() == 0)
+        if (n_secondary() == 0 || (is_clear(gap) && std::all_of(memory, memory + n_memory(),
+                                                                [](const double x) { return x == 0.; })))
           return;
         const PresentSurfaces now = present(history);
         const double          left_with = compression_of(history);
@@ -151,6 +159,9 @@ namespace Voussoir
       /** Returns true if the key is out of its socket. The tolerance exceeds the solver's error in the
        * opening, so that a key on its crest stays there. */
       bool is_out(const Vector3 &gap) const { return gap[0] >= height * (1. - 1e-6); }
+
+      /** Returns true if a key in its socket touches neither face nor flank. */
+      bool is_clear(const Vector3 &gap) const { return gap[0] > 0. && !is_out(gap) && depth(gap) < 0.; }
 
       /** Returns the largest penetration of a flank [m]. Negative: distance to the nearest flank. */
       double depth(const Vector3 &gap) const

@@ -104,6 +104,11 @@ namespace Voussoir
   double SurfacesLaw::friction_correction(const Vector3 &force, const Vector3 &gap,
                                           const PairHistory &history) const
   {
+    if (force == Vector3{} && history.memory &&
+        std::all_of(history.memory, history.memory + n_memory(), [](const double x) { return x == 0.; }) &&
+        std::all_of(surfaces.begin(), surfaces.end(),
+                    [&](const ContactSurface &s) { return s.distance(gap) > 0.; }))
+      return 0.;
     const PresentSurfaces     now = present(history);
     const std::vector<double> secondary = secondary_forces(now, force, gap);
     const Vector3             change = gap - history.start;

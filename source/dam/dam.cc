@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iomanip>
-#include <map>
 #include <set>
 #include <sstream>
 
@@ -24,26 +23,52 @@ namespace Voussoir
 {
   namespace
   {
-    /** Throws InputError for a monolith without base nodes. */
-    void check_base(const HexMesh &opened, const std::string &source)
+    /** Returns the first bodies without a node on the base, such as "monolith 2, monolith 3", or an empty string. */
+    std::string bodies_without_base(const SolidModel &model)
     {
-      std::set<int> base_joints;
-      for (const Joint &joint : joints_of(opened))
-        if (joint.is_base())
-          base_joints.insert(PhysicalId::joint_side_2 + joint.number);
-      std::set<unsigned int> base;
-      for (const HexMesh::Face &face : opened.faces)
-        if (face.surface == PhysicalId::base || base_joints.count(face.surface) > 0)
-          base.insert(face.nodes.begin(), face.nodes.end());
-      std::map<int, bool> stands;
-      for (const HexMesh::Cell &cell : opened.cells)
-        stands[monolith_of(cell.volume)] |= std::any_of(
-            cell.nodes.begin(), cell.nodes.end(), [&](const unsigned int n) { return base.count(n) > 0; });
-      for (const auto &[monolith, does] : stands)
-        if (!does)
-          throw InputError("mesh " + source + ": monolith " + std::to_string(monolith) +
-                           " has no node on the surface \"base\", so it is unsupported. Extend its joints to "
-                           "the base, or add its lowest faces to the surface.");
+      std::vector<bool> stands(model.n_bodies(), false);
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        if (model.is_at_base(i))
+          stands[model.body[i]] = true;
+      std::string  names;
+      unsigned int n = 0;
+      for (unsigned int b = 0; b < stands.size(); ++b)
+        if (!stands[b] && ++n <= 3)
+          names += (n == 1 ? "" : ", ") + physical_name(3, model.body_numbers[b]);
+      return n <= 3 ? names : names + " and " + std::to_string(n - 3) + " others";
+    }
+
+    /** Throws InputError for a body without base nodes, before its stiffness is factorised alone. */
+    void check_base(const SolidModel &model, const std::string &source, const char *why)
+    {
+      if (const std::string names = bodies_without_base(model); !names.empty())
+        throw InputError(
+            "mesh " + source + ": " + names + (names.find(',') == std::string::npos ? " has" : " have") +
+            " no node on the surface \"base\", so nothing holds this part " + why +
+            ". Extend its joints to the base, add its lowest faces to the surface, or, for blocks "
+            "that only contact holds, set \"Statics/Self-weight\" to monolithic or none, with joints "
+            "that are not tied.");
+    }
+
+    /** Adds warnings about what a dam has, but other blocks need not have. */
+    void note_shape(Dam &dam)
+    {
+      std::vector<std::string> &warnings = dam.facts.warnings;
+      if (const std::string names = bodies_without_base(*dam.model); !names.empty())
+      {
+        dam.has_free_bodies = true;
+        warnings.push_back(names +
+                           ": no node on the surface \"base\", so only contact holds these blocks. If they "
+                           "are part of a dam, extend their joints to the base.");
+      }
+      if (!dam.geometry->has_crest)
+        warnings.push_back(
+            "the surfaces \"crest\" and \"upstream\" do not meet, or are missing. Results of the crest are "
+            "those of the highest nodes of the mesh. For a dam, add both surfaces.");
+      if (const auto &flat = dam.layout.without_keys; !flat.empty())
+        warnings.push_back("Shear keys cannot cross joints: " + std::to_string(flat.size()) +
+                           " joints with the law KSM, the first " + dam.layout.joints[*flat.begin()].name() +
+                           ", are flat (FJA) at the nodes where they cross other joints.");
     }
 
     /** Throws InputError if the model cannot be in plane strain. */
@@ -70,14 +95,13 @@ namespace Voussoir
   {
     const HexMesh     mesh = scene.hex_mesh();
     const std::string source = scene.mesh.name();
-    check_axes_and_units(mesh, scene.mesh, source);
+    if (const std::string warning = check_axes_and_units(mesh, scene.mesh, source); !warning.empty())
+      facts.warnings.push_back(warning);
     facts.groups = group_table(mesh);
     facts.remark = mesh.remark;
     water_volumes = mesh.water;
     facts.ungrouped = faces_without_group(mesh, scene.mesh.plane_strain);
-    const HexMesh opened = open_monoliths(mesh, source);
-    if (!layout.tied || scene.statics.self_weight == "staged")
-      check_base(opened, source);
+    const HexMesh        opened = open_monoliths(mesh, source);
     FoundationParameters founded = scene.foundation;
     if (founded.coupling == "auto" && scene.impact_rule != "mean-force")
       founded.coupling = "partition"; // the other coupling requires mean forces
@@ -98,8 +122,10 @@ namespace Voussoir
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
     if (scene.mesh.plane_strain)
       check_plane_strain(scene, *foundation, opened);
-    facts.warnings = mesh_warnings(opened, scene, facts.concrete_zones);
+    for (const std::string &warning : mesh_warnings(opened, scene, facts.concrete_zones))
+      facts.warnings.push_back(warning);
     assemble(opened, source);
+    note_shape(*this);
     layout.assign_laws(structure, foundation->base() == Foundation::Base::tied ? nodes_of_base()
                                                                                : std::set<unsigned int>());
     add_loads();
@@ -157,6 +183,7 @@ namespace Voussoir
         layout.tie_parts(*model, true);
         structure = assemble_structure(*model, materials, incompatible_modes);
       }
+      check_base(*model, source, "under its staged self-weight");
       staged = staged_weight(scene, sustained, *model, structure, *geometry, layout.joints, initial_stress);
     }
     if (layout.has_parts())
@@ -183,7 +210,9 @@ namespace Voussoir
       tie_joints(*model, n_all);
       structure = assemble_structure(*model, materials, incompatible_modes);
     }
-    else if (!layout.tied)
+    if (layout.tied)
+      check_base(*model, source, "with tied joints");
+    else
     {
       structure.pairs = std::move(pairs);
       open_base_joints();
@@ -250,6 +279,27 @@ namespace Voussoir
     structure.remove_held_forces(weight_on_joints);
   }
 
+  Unknowns Dam::initial_velocity() const
+  {
+    Unknowns v(3 * std::size_t(structure.n_nodes()), 0.);
+    for (const auto &[block, velocity] : scene.initial_velocities())
+    {
+      bool found = false;
+      for (unsigned int i = 0; i < model->n_nodes(); ++i)
+        if (const int number = model->body_numbers[model->body[i]]; block == 0 || number == block)
+        {
+          found = true;
+          if (model->equation[i] != rigid_ground)
+            set(v, model->equation[i], velocity);
+        }
+      if (!found)
+        throw InputError("Entry \"Dynamics/Initial velocity\" names " + physical_name(3, block) +
+                         ", which is no block of the mesh, or is tied to another one. Correct the name.");
+    }
+    structure.remove_held_forces(v);
+    return v;
+  }
+
   bool Dam::has_sustained_moduli() const
   {
     return scene.sustained_ratio() != 1. ||
@@ -289,7 +339,17 @@ namespace Voussoir
 
   void Dam::add_loads()
   {
+    for (const LoadRow &load : load_table())
+      if (load.traction && load.acts(scene) && scene.loads.factor(load.name) != 0. &&
+          std::none_of(model->surfaces.begin(), model->surfaces.end(),
+                       [&](const std::set<int> &surfaces) { return surfaces.count(load.surface) > 0; }))
+        throw InputError("The load \"" + std::string(load.name) + "\" acts on the surface \"" +
+                         physical_name(2, load.surface) +
+                         "\", which the mesh does not have. Add it to the mesh, or "
+                         "remove the load (water: \"Reservoir/Density\" = 0; others: section \"Loads\").");
     loads = static_loads(scene, {*model, structure, sustained});
+    if (const double factor = scene.loads.factor("force history"); factor != 0.)
+      forces = forces_in_time(scene, *model, structure, factor);
     for (const StaticLoad &load : loads)
       for (std::size_t i = 0; i < load.stress.size(); ++i)
         for (unsigned int c = 0; c < 6; ++c)

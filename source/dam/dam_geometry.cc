@@ -16,14 +16,43 @@ namespace Voussoir
 {
   using namespace dealii;
 
+  namespace
+  {
+    /** Returns the nodes on the common edge of the crest and the upstream face, or without such an edge the highest
+     * nodes, those with the least x if they are on an edge. */
+    std::vector<unsigned int> upper_edge(const SolidModel &model, bool &is_crest)
+    {
+      std::vector<unsigned int> nodes, highest, first;
+      double                    top = -1e300, bottom = 1e300, least = 1e300;
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+      {
+        if (model.on_surface(i, PhysicalId::crest) && model.on_surface(i, PhysicalId::upstream))
+          nodes.push_back(i);
+        top = std::max(top, model.points[i][2]);
+        bottom = std::min(bottom, model.points[i][2]);
+      }
+      is_crest = !nodes.empty();
+      if (is_crest)
+        return nodes;
+      const double same = 1e-6 * (top - bottom);
+      for (unsigned int i = 0; i < model.n_nodes(); ++i)
+        if (model.points[i][2] > top - same)
+        {
+          highest.push_back(i);
+          least = std::min(least, model.points[i][0]);
+        }
+      for (const unsigned int i : highest)
+        if (model.points[i][0] < least + same)
+          first.push_back(i);
+      return first.size() > 1 ? first : highest;
+    }
+  } // namespace
+
   DamGeometry::DamGeometry(const SolidModel &model, const std::vector<Pair> &pairs,
                            const unsigned int n_joints, const std::string &source)
       : joints(n_joints)
   {
-    std::vector<unsigned int> nodes;
-    for (unsigned int i = 0; i < model.n_nodes(); ++i)
-      if (model.on_surface(i, PhysicalId::crest) && model.on_surface(i, PhysicalId::upstream))
-        nodes.push_back(i);
+    std::vector<unsigned int> nodes = upper_edge(model, has_crest);
     if (nodes.size() < 2)
       throw InputError("mesh " + source +
                        ": the surfaces \"crest\" and \"upstream\" do not meet, or are missing. Results are "

@@ -112,7 +112,8 @@ namespace Voussoir
      * redundant. The compliance of these laws makes the forces unique. It is that of a thin layer of concrete, and about
      * 3e-2 of the flexibility of the concrete around a pair in a step of 10 ms. */
     std::vector<std::unique_ptr<JointLaw>> laws_of_crossings(const Scene &scene, const Structure &structure,
-                                                             const std::vector<std::string> &models)
+                                                             const std::vector<std::string> &models,
+                                                             const std::set<unsigned int>   &without_keys)
     {
       constexpr double          thickness = .2; // of the layer of concrete, in distances of the nodes
       std::vector<double>       area(models.size(), 0.);
@@ -132,7 +133,10 @@ namespace Voussoir
           *stiffness = n[j] == 0          ? *stiffness
                        : *stiffness == 0. ? added
                                           : 1. / (1. / *stiffness + 1. / added);
-        laws.push_back(make_joint_law(models[j], parameters));
+        if (models[j] != "KSM")
+          laws.push_back(make_joint_law(models[j], parameters));
+        else // see JointLayout::cross()
+          laws.push_back(without_keys.count(j) > 0 ? make_joint_law("FJA", parameters) : nullptr);
       }
       return laws;
     }
@@ -239,7 +243,7 @@ namespace Voussoir
                      });
   }
 
-  /** Finds the clusters of pairs where joints cross, and checks that their joints can. */
+  /** Finds the clusters of pairs where joints cross. Keys are left out where all blocks of a ring meet. */
   void JointLayout::cross(Structure &structure)
   {
     if (has_parts())
@@ -247,13 +251,15 @@ namespace Voussoir
     remove_keys_at_base(joints, models, structure);
     structure.clusters = clusters_of(structure.pairs);
     for (const auto &cluster : structure.clusters)
+    {
+      std::set<unsigned int> nodes;
       for (const unsigned int p : cluster)
-        if (const unsigned int j = structure.pairs[p].joint; models[j] == "KSM")
-          throw InputError(
-              "The law of " + joints[j].name() +
-              " is KSM, but the joint crosses other joints, and shear keys cannot cross joints. Set "
-              "\"Joints/Overrides\" to \"lift: tied\" or \"base: tied\", or the model of this joint to FJA, FJB or "
-              "cohesive.");
+        nodes.insert({structure.pairs[p].node_1, structure.pairs[p].node_2});
+      for (const unsigned int p : cluster) // a ring of blocks: the conditions are redundant
+        if (const unsigned int j = structure.pairs[p].joint;
+            nodes.size() <= cluster.size() && models[j] == "KSM")
+          without_keys.insert(j);
+    }
   }
 
   /** Assigns the laws of the pairs. Pairs at the base are tied if the foundation requires it. */
@@ -271,7 +277,7 @@ namespace Voussoir
                        names + "), which requires \"Dynamics/Impact\" = mean-force, not " +
                        scene.impact_rule + ".");
     }
-    laws.of_crossings = laws_of_crossings(scene, structure, models);
+    laws.of_crossings = laws_of_crossings(scene, structure, models, without_keys);
     laws.assign(structure);
     if (laws.need_mean_force() && impact_rule(scene.impact_rule) != ImpactRule::mean_force)
       throw InputError("The joint models " + joint_laws_of_mean_force() +

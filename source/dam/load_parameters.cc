@@ -103,6 +103,13 @@ namespace Voussoir
         "Forces on single nodes, as \"NAME: x y z Fx Fy Fz; NAME: ...\" in m and N. A force acts on the node "
         "that is nearest to the position x y z.",
         map());
+    prm.add_parameter(
+        "Force history", force_history,
+        "Forces at points with a history, as \"NAME: x y z; dx dy dz; FILE; NAME: ...\": point [m], direction "
+        "and file with two columns, time [s] and force [N]. The force is linear between the rows and constant "
+        "before and after them. The static state has its first value; of two rows with the same time the "
+        "second holds from then on, so that \"0 1e6\" and \"0 0\" release a static pull.",
+        Patterns::Anything());
     prm.add_parameter("Crest line", crest_line,
                       "Force per length along an edge of the crest, as \"qx qy qz\" in N/m. Empty: none.",
                       Patterns::Anything());
@@ -115,6 +122,7 @@ namespace Voussoir
   void LoadParameters::check() const
   {
     point_loads();
+    force_histories();
     line_load();
     if (silt.coefficient < 0. && silt.coefficient != -1.)
       throw InputError(
@@ -155,6 +163,36 @@ namespace Voussoir
       loads[entry.first] = {{{x[0], x[1], x[2]}}, {{x[3], x[4], x[5]}}};
     }
     return loads;
+  }
+
+  std::vector<ForceHistory> LoadParameters::force_histories() const
+  {
+    std::vector<ForceHistory> forces;
+    std::istringstream        in(force_history);
+    std::vector<std::string>  parts;
+    for (std::string part; std::getline(in, part, ';');)
+      parts.push_back(part);
+    for (std::size_t i = 0; i < parts.size(); i += 3)
+    {
+      const auto                colon = parts[i].find(':');
+      const std::vector<double> x = numbers_in(parts[i].substr(colon == std::string::npos ? 0 : colon + 1)),
+                                d = numbers_in(i + 1 < parts.size() ? parts[i + 1] : "");
+      const std::vector<std::string> file = items_of(i + 2 < parts.size() ? parts[i + 2] : "");
+      if (colon == std::string::npos || x.size() != 3 || d.size() != 3 || file.size() != 1)
+        throw InputError(
+            "Entry \"Loads/Force history\" has \"" + parts[i] +
+            "\"; write \"NAME: x y z; dx dy dz; FILE\", separated by semicolons: a point in m, a "
+            "direction and a file with time [s] and force [N].");
+      const double length = std::hypot(d[0], d[1], d[2]);
+      if (!(length > 0.))
+        throw InputError("Entry \"Loads/Force history\": the direction of \"" + parts[i] + "\" is zero.");
+      const std::vector<std::string> name = items_of(parts[i].substr(0, colon));
+      forces.push_back({name.empty() ? "" : name[0],
+                        {{x[0], x[1], x[2]}},
+                        {{d[0] / length, d[1] / length, d[2] / length}},
+                        file[0]});
+    }
+    return forces;
   }
 
   Vector3 LoadParameters::line_load() const

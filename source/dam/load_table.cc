@@ -4,6 +4,7 @@
 #include <voussoir/base/names.h>
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/face_pressure.h>
+#include <voussoir/dam/force_history.h>
 #include <voussoir/dam/load_names.h>
 #include <voussoir/dam/load_table.h>
 #include <voussoir/dam/nodal_forces.h>
@@ -152,6 +153,21 @@ namespace Voussoir
       return row;
     }
 
+    LoadRow force_history()
+    {
+      LoadRow row{"force history", 8, [](const Scene &scene) { return !scene.loads.force_history.empty(); }};
+      row.help = "its first value in the static state";
+      row.defined_by = "Loads/Force history";
+      row.is_reversible = true;
+      row.add = [](const Scene &scene, const LoadSite &site, StaticLoad &load)
+      {
+        for (const ForceInTime &force : forces_in_time(scene, site.model, site.structure, 1.))
+          for (std::size_t k = 0; k < load.force.size(); ++k)
+            load.force[k] += force.value.front() * force.pattern[k];
+      };
+      return row;
+    }
+
     LoadRow crest_line()
     {
       LoadRow row{"crest line", 6, [](const Scene &scene) { return !scene.loads.crest_line.empty(); }};
@@ -191,8 +207,9 @@ namespace Voussoir
   // A new load has its own files, its parameters and a row here.
   const std::vector<LoadRow> &load_table()
   {
-    static const std::vector<LoadRow> table = {weight(),      water(),  tail_water(),   silt(),
-                                               temperature(), uplift(), concentrated(), crest_line()};
+    static const std::vector<LoadRow> table = {weight(),       water(),       tail_water(),
+                                               silt(),         temperature(), uplift(),
+                                               concentrated(), crest_line(),  force_history()};
     return table;
   }
 

@@ -13,31 +13,32 @@ namespace Voussoir
 {
   using namespace dealii;
 
+  void add_point_force(const SolidModel &model, const std::string &what, const PointLoad &point,
+                       Unknowns &load)
+  {
+    std::set<std::map<unsigned int, double>> sharing; // parts of the equations, once if blocks are tied there
+    bool                                     is_held = true;
+    for (const PlaceInDam &place : places_at(model, what, point.place))
+    {
+      std::map<unsigned int, double> of_block;
+      for (const auto &[node, part] : place.parts)
+        of_block[model.equation[node]] += part;
+      is_held = is_held && of_block.size() == 1 && of_block.count(rigid_ground) > 0;
+      sharing.insert(of_block);
+    }
+    if (is_held)
+      throw InputError(what + " is on the fixed base and has no effect. Move it, or remove it.");
+    for (const auto &of_block : sharing)
+      for (const auto &[e, part] : of_block)
+        for (unsigned int c = 0; e != rigid_ground && c < 3; ++c)
+          load[3 * std::size_t(e) + c] += part * point.force[c] / sharing.size();
+  }
+
   void add_concentrated(const SolidModel &model, const LoadParameters &loads, Unknowns &load)
   {
     for (const auto &entry : loads.point_loads())
-    {
-      const Vector3 &x = entry.second.place;
-      std::set<std::map<unsigned int, double>>
-           sharing; // parts of the equations, once if blocks are tied there
-      bool is_held = true;
-      for (const PlaceInDam &place :
-           places_at(model, "Entry \"Loads/Concentrated\": load \"" + entry.first + "\"", x))
-      {
-        std::map<unsigned int, double> of_block;
-        for (const auto &[node, part] : place.parts)
-          of_block[model.equation[node]] += part;
-        is_held = is_held && of_block.size() == 1 && of_block.count(rigid_ground) > 0;
-        sharing.insert(of_block);
-      }
-      if (is_held)
-        throw InputError("Entry \"Loads/Concentrated\": load \"" + entry.first +
-                         "\" is on the fixed base and has no effect. Move it, or remove it.");
-      for (const auto &of_block : sharing)
-        for (const auto &[e, part] : of_block)
-          for (unsigned int c = 0; e != rigid_ground && c < 3; ++c)
-            load[3 * std::size_t(e) + c] += part * entry.second.force[c] / sharing.size();
-    }
+      add_point_force(model, "Entry \"Loads/Concentrated\": load \"" + entry.first + "\"", entry.second,
+                      load);
   }
 
   namespace

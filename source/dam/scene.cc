@@ -202,7 +202,7 @@ namespace Voussoir
     prm.enter_subsection("Output");
     prm.add_parameter(
         "Probes", probes,
-        "Points whose displacement and absolute acceleration are written to history.csv, as \"name: x y z; name: x y z\" [m]. Values "
+        "Points whose displacement, velocity (both relative to the base) and absolute acceleration are written to history.csv, as \"name: x y z; name: x y z\" [m]. Values "
         "are interpolated in the element; at a joint it is that towards the right bank.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter(
@@ -282,7 +282,7 @@ namespace Voussoir
     {
       const bool taken = probe.first == "crest" || probe.first == "crest_left" || probe.first == "base" ||
                          probe.first == "ground" ||
-                         std::regex_match(probe.first, std::regex(".*_acceleration|pressure_.*"));
+                         std::regex_match(probe.first, std::regex(".*_(acceleration|velocity)|pressure_.*"));
       const std::string entry = "Entry \"Output/Probes\": ";
       const std::string example = " Separate probes by semicolons, as in \"name: x y z; name: x y z\".";
       if (probe.first.empty())
@@ -291,7 +291,7 @@ namespace Voussoir
         throw InputError(
             entry + "\"" + probe.first +
             "\" cannot be the name of a probe, because it names another column of history.csv or "
-            "floor_spectra.csv. Choose another name, without \"_acceleration\" at its end.");
+            "floor_spectra.csv. Choose another name, without \"_acceleration\" or \"_velocity\" at its end.");
       if (probe.first.find_first_of(",\"") != std::string::npos)
         throw InputError(entry + "\"" + probe.first +
                          "\" cannot be the name of a probe, because it becomes a column of history.csv, "
@@ -306,6 +306,43 @@ namespace Voussoir
     }
     return places;
   }
+
+  namespace
+  {
+    void add_dynamics(Scene &scene, Entries &prm)
+    {
+      prm.enter_subsection("Dynamics");
+      prm.add_parameter(
+          "Steps per sample", scene.steps_per_sample,
+          "Number of time steps per sampling interval of the ground motion [-]. The motion is linear between "
+          "its samples. With rock the time step must be below the critical one, which --validate prints.",
+          Patterns::Integer(1));
+      prm.add_parameter("Scheme", scene.scheme, "Time integration. " + integrator_docs() + ".",
+                        Patterns::Selection(integrator_names()));
+      prm.add_parameter(
+          "Explicit step", scene.explicit_step,
+          "Length of the steps of the scheme explicit [s]; they are shortened to divide a time step, at whose end results are recorded. "
+          "-1: 0.95 of the critical step.",
+          XX, scene.initial_velocity,
+          "Velocities of blocks at the start, relative to the base, as \"BLOCK: vx vy vz; BLOCK: ...\" in "
+          "m/s. BLOCK is all, or a name such as monolith 2 or monolith 2 lift 1.",
+          Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
+      prm.add_parameter(
+          "Impact", scene.impact_rule,
+          "Joint forces and velocities of closed joints. mean-force: the forces are means over "
+          "the step, so joints never create energy. For comparison: paper (Taylor and Papadopoulos) and none "
+          "(plain Newmark, which oscillates).",
+          Patterns::Selection(impact_rule_names()));
+      prm.add_parameter(
+          "Factors", scene.factors,
+          "Precision of the matrix factors of the monoliths. single: half of the memory and of "
+          "the memory traffic of a step. The unknown is then the displacement increment, and the "
+          "residual of the equations of motion is added to the next step (doc/method.md). Always "
+          "double on subcycled rock, and on massless rock that is not one body with the dam.",
+          Patterns::Selection("double|single"));
+      prm.leave_subsection();
+    }
+  } // namespace
 
   void Scene::add_parameters(Entries &prm)
   {
@@ -337,45 +374,10 @@ namespace Voussoir
     loads.add_parameters(prm);
     motion.add_parameters(prm);
     foundation.add_parameters(prm);
-    add_dynamics(prm);
+    add_dynamics(*this, prm);
     contact.add_parameters(prm);
     limits.add_parameters(prm);
     output.add_parameters(prm);
-  }
-
-  void Scene::add_dynamics(Entries &prm)
-  {
-    prm.enter_subsection("Dynamics");
-    prm.add_parameter(
-        "Steps per sample", steps_per_sample,
-        "Number of time steps per sampling interval of the ground motion [-]. The motion is linear between "
-        "its samples. With rock the time step must be below the critical one, which --validate prints.",
-        Patterns::Integer(1));
-    prm.add_parameter("Scheme", scheme, "Time integration. " + integrator_docs() + ".",
-                      Patterns::Selection(integrator_names()));
-    prm.add_parameter(
-        "Explicit step", explicit_step,
-        "Length of the steps of the scheme explicit [s]; they are shortened to divide a time step, at whose end results are recorded. "
-        "-1: 0.95 of the critical step.",
-        {-1., .01}, Patterns::Double(-1.));
-    prm.add_parameter(
-        "Mass scaling", mass_scaling,
-        "Step of the scheme explicit that mass added to the smallest elements of a mesh from a file allows [s]. The log "
-        "tells the mass, which is an error of the model. 0: none.",
-        {0., .005}, Patterns::Double(0.));
-    prm.add_parameter(
-        "Impact", impact_rule,
-        "Joint forces and velocities of closed joints. mean-force: the forces are means over "
-        "the step, so joints never create energy. For comparison: paper (Taylor and Papadopoulos) and none "
-        "(plain Newmark, which oscillates).",
-        Patterns::Selection(impact_rule_names()));
-    prm.add_parameter("Factors", factors,
-                      "Precision of the matrix factors of the monoliths. single: half of the memory and of "
-                      "the memory traffic of a step. The unknown is then the displacement increment, and the "
-                      "residual of the equations of motion is added to the next step (doc/method.md). Always "
-                      "double on subcycled rock, and on massless rock that is not one body with the dam.",
-                      Patterns::Selection("double|single"));
-    prm.leave_subsection();
   }
 
   std::vector<ModelChoice> Scene::model_choices() const
@@ -451,6 +453,8 @@ namespace Voussoir
       add("Mesh/File", mesh.file);
     if (mesh.source == "arcs")
       add("Mesh/Arcs/Table", mesh.arcs.table);
+    for (const ForceHistory &force : loads.force_histories())
+      add("Loads/Force history", force.file);
     add("Loads/Temperature/Table", loads.temperature.table);
     if (reservoir.model == "added mass table")
       add("Reservoir/Table", reservoir.table);
@@ -514,7 +518,7 @@ namespace Voussoir
     if (impact_rule != "mean-force" || contact.write_problems)
       refuse("has no rule of impact and no contact problems. Set \"Dynamics/Impact\" to mean-force and "
              "\"Contact/Write problems\" to false");
-    if (damping.law().stiffness > 0. && motion.source != "none")
+    if (damping.law().stiffness > 0. && (motion.source != "none" || moves_alone()))
       refuse(
           "has no stiffness-proportional damping, which would require a step of about 0.02 ms. Set \"Damping/Model\" to "
           "uniform, or \"Damping/Mass coefficient\" with \"Stiffness coefficient\" = 0");
@@ -528,8 +532,29 @@ namespace Voussoir
     motion.read_target(directory);
   }
 
+  std::map<int, Vector3> Scene::initial_velocities() const
+  {
+    std::map<int, Vector3> velocities;
+    for (const auto &[name, text] : initial_velocity)
+    {
+      std::istringstream in(text);
+      std::string        more;
+      Vector3            v{};
+      const int          block = name == "all" ? 0 : physical_id(3, name);
+      if (block < 0 || (block > 0 && !is_monolith(block)) || !(in >> v[0] >> v[1] >> v[2]) || in >> more)
+        throw InputError(
+            "Entry \"Dynamics/Initial velocity\" has \"" + name + ": " + text +
+            "\"; write \"BLOCK: vx vy vz\" in m/s, where BLOCK is all, or a name such as monolith 2.");
+      velocities[block] = v;
+    }
+    return velocities;
+  }
+
   void Scene::check() const
   {
+    if (!initial_velocities().empty() && foundation.model != "rigid")
+      throw InputError("Entry \"Dynamics/Initial velocity\" requires \"Foundation/Model\" = rigid, not " +
+                       foundation.model + ".");
     mesh.check();
     zone_materials(concrete_zones, "Concrete/Zones");
     foundation.zone_materials();

@@ -14,7 +14,7 @@ namespace Voussoir
     std::vector<bool> crosses(structure.pairs.size(), false);
     for (const auto &cluster : structure.clusters)
       for (const unsigned int p : cluster)
-        crosses[p] = !of_crossings.empty();
+        crosses[p] = !of_crossings.empty() && of_crossings[structure.pairs[p].joint];
     for (std::size_t p = 0; p < crosses.size(); ++p)
     {
       const Pair     &pair = structure.pairs[p];

@@ -114,7 +114,9 @@ namespace Voussoir
                "mesh. If z points down, correct \"Mesh/Axes\".");
       }
 
-      void height() const
+      /** Throws InputError for a height above the usual ones. Returns a warning for one below them, or an empty
+       * string. */
+      std::string height() const
       {
         double bottom = 1e300, top = -1e300;
         for (const auto &cell : mesh.cells)
@@ -126,9 +128,9 @@ namespace Voussoir
             }
         const double height = top - bottom;
         if (height >= lowest_dam && height <= highest_dam)
-          return;
+          return "";
         std::ostringstream text;
-        text << "the dam is " << height << " m high. The program accepts heights of " << lowest_dam << " to "
+        text << "the dam is " << height << " m high. Dams have heights of " << lowest_dam << " to "
              << highest_dam << " m. The entry \"Mesh/Length unit\" is " << parameters.length_unit;
         std::string units;
         for (const char *unit : {"m", "cm", "mm", "ft", "in", "km"})
@@ -142,9 +144,13 @@ namespace Voussoir
                      " m high)";
           }
         }
-        text << (units.empty() ? ", and no other unit gives such a height. Scale the mesh."
-                               : ": the coordinates are probably in another unit. Set it to " + units + ".");
-        fail(text.str());
+        text << (units.empty() ? ", and no other unit gives such a height. "
+                               : ". With the unit " + units + " it would be a dam. ")
+             << (height < lowest_dam ? "For other blocks ignore this warning."
+                                     : "Correct the entry, or scale the mesh.");
+        if (height > highest_dam)
+          fail(text.str());
+        return "mesh " + source + ": " + text.str();
       }
 
     private:
@@ -233,12 +239,13 @@ namespace Voussoir
     };
   } // namespace
 
-  void check_axes_and_units(const HexMesh &mesh, const MeshParameters &parameters, const std::string &source)
+  std::string check_axes_and_units(const HexMesh &mesh, const MeshParameters &parameters,
+                                   const std::string &source)
   {
     if (parameters.source != "file")
-      return;
+      return "";
     const AxesCheck check(mesh, parameters, source);
     check.axes();
-    check.height();
+    return check.height();
   }
 } // namespace Voussoir

@@ -162,13 +162,9 @@ namespace Voussoir
         if (has_rock && !has_base)
           fail("dam and rock do not touch: no hexahedra of both share a face. Let them share their nodes "
                "(gmsh: Coherence, or remove duplicate nodes).");
-        if (has_rock ? has(PhysicalId::artificial) : has_base)
-          return;
-        if (has_rock)
+        if (has_rock && !has(PhysicalId::artificial))
           fail("the rock has no supports: there is no surface 'artificial boundary' (id 6). Put the lateral "
                "faces and the bottom of the rock into it.");
-        fail("the dam has no supports: there is no surface 'base' (id 1). Put the faces on the floor and the "
-             "flanks of the valley into it.");
       }
 
       /** Throws InputError for two monoliths that lie face to face without common nodes and

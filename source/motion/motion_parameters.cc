@@ -274,8 +274,7 @@ namespace Voussoir
   {
     require(time_step > 0. && time_step <= 1e3, "Time step", time_step,
             "it must be positive, at most 1000 s");
-    if (source != "none" &&
-        (!duration_is_automatic() || source != "file")) // otherwise the records determine it
+    if (!duration_is_automatic() || source != "file") // otherwise the records determine it
     {
       require(length() >= time_step, "Duration", length(),
               "it must be at least one Time step, or -1: automatic");

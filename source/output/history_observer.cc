@@ -29,6 +29,14 @@ namespace Voussoir
     for (const auto &probe : run.scene().output.probe_places())
       declare_point(probe.first, probe_place(model, probe.first, probe.second));
     declare_accelerations();
+    for (std::size_t k = crown_is_at_joint ? 2 : 1; k < points.size(); ++k)
+      history_columns.add_vector(points[k] + "_velocity",
+                                 [this, k]
+                                 {
+                                   return places[k].interpolated(
+                                       [this](const unsigned int node)
+                                       { return run.velocity_relative_to_base(node); });
+                                 });
     for (const double depth : run.scene().output.pressure_depths)
       if (const AcousticWater *water = run.dam->water.get())
         table.add("pressure_" + number_text(depth),

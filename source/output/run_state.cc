@@ -14,6 +14,14 @@ namespace Voussoir
       for (std::size_t k = 0; dam.foundation->moves_base() && k < load.size(); ++k)
         load[k] += a[0] * dam.inertia[0][k] + a[1] * dam.inertia[1][k] + a[2] * dam.inertia[2][k];
     }
+
+    /** Adds the changes of the forces with a history since the static state. */
+    void add_changes(const Dam &dam, const double time, Unknowns &load)
+    {
+      for (const ForceInTime &force : dam.forces)
+        for (std::size_t k = 0; k < load.size(); ++k)
+          load[k] += (force.at(time) - force.value.front()) * force.pattern[k];
+    }
   } // namespace
 
   void RunState::start(const ContactParameters &parameters)
@@ -36,15 +44,19 @@ namespace Voussoir
                                   scene().n_explicit, neighbour});
     Unknowns load = statics.constant_load();
     if (n_steps > 0)
+    {
       add_inertia(*dam, motion.acceleration[0], load);
-    integrator->start(statics.u, Unknowns(statics.u.size(), 0.), statics.force, load, statics.closed,
-                      statics.memory, statics.modulus_force);
+      add_changes(*dam, 0., load);
+    }
+    integrator->start(statics.u, dam->initial_velocity(), statics.force, load, statics.closed, statics.memory,
+                      statics.modulus_force);
   }
 
   Unknowns RunState::next_load() const
   {
     Unknowns load = statics.constant_load();
     add_inertia(*dam, motion.sample(step + 1), load);
+    add_changes(*dam, (step + 1) * motion.dt, load);
     return load;
   }
 
@@ -69,6 +81,13 @@ namespace Voussoir
     if (e != rigid_ground)
       result = {{u[3 * e], u[3 * e + 1], u[3 * e + 2]}};
     return result - dam->base_motion(u);
+  }
+
+  Vector3 RunState::velocity_relative_to_base(const unsigned int node) const
+  {
+    const Unknowns    &v = integrator->state().v;
+    const unsigned int e = dam->model->equation[node];
+    return (e == rigid_ground ? Vector3{} : get(v, e)) - dam->base_motion(v);
   }
 
   Vector3 RunState::absolute_acceleration(const unsigned int node) const

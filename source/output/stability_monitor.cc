@@ -15,13 +15,34 @@ namespace Voussoir
     constexpr double growth_limit = 10.; ///< of the motion at a node, see StabilityMonitor
     constexpr double long_period = 1.;   ///< natural period above that of any arch dam [s]
 
-    /** Returns the velocity with which the dam has the kinetic energy @p strain [J] [m/s]. */
-    double static_speed(const Structure &structure, const double strain)
+    double mass_of(const Structure &structure)
     {
       double mass = 0.;
       for (const Matrix3 &m : structure.mass)
         mass += m[0];
-      return std::sqrt(2. * std::max(0., strain) / mass);
+      return mass;
+    }
+
+    /** Returns the velocity with which the dam has the kinetic energy @p energy [J] [m/s]. */
+    double speed(const Structure &structure, const double energy)
+    {
+      return std::sqrt(2. * std::max(0., energy) / mass_of(structure));
+    }
+
+    /** Returns a bound of speed() for the energy that the forces with a history can supply [m/s]. */
+    double speed_by_forces(const Dam &dam, const GroundMotion &motion)
+    {
+      double sum = 0.;
+      for (const ForceInTime &force : dam.forces)
+      {
+        double impulse = 0., square = 0.; // [N s]; of the pattern, over the nodal masses [1/kg]
+        for (std::size_t k = 1; k < motion.acceleration.size(); ++k)
+          impulse += motion.dt * std::abs(force.at(k * motion.dt));
+        for (std::size_t k = 0; k < force.pattern.size(); ++k)
+          square += force.pattern[k] * force.pattern[k] / dam.structure.mass[k / 3][4 * (k % 3)];
+        sum += impulse * std::sqrt(square / mass_of(dam.structure));
+      }
+      return sum;
     }
   } // namespace
 
@@ -46,10 +67,11 @@ namespace Voussoir
   {
     const MotionBounds bounds = bounds_of(motion, dam.structure.damping.mass);
     const double       strain = integrator.state().energy.strain + dam.foundation->strain_at_start(),
-                 v_0 = static_speed(dam.structure, strain);
+                 v_0 = speed(dam.structure, strain + integrator.state().energy.kinetic) +
+                       speed_by_forces(dam, motion);
     velocity_dam = growth_limit * (bounds.oscillator + v_0);
     const double velocity_rock = growth_limit * (bounds.velocity + v_0);
-    const double time = .5 * long_period / M_PI;
+    const double time = .5 * long_period / M_PI + (dam.has_free_bodies ? motion.duration() : 0.);
     displacement_dam = growth_limit * bounds.displacement + time * velocity_dam;
     const double displacement_rock = growth_limit * bounds.displacement + time * velocity_rock;
     for (Neighbour *neighbour : dam.neighbours)

@@ -70,6 +70,7 @@ def scales(laws, loads):
         "tail water": {"none": {}, "low": {"Loads/Tail water/Level": "{.2}"}},
         "silt": {"none": {}, "Rankine": {"Loads/Silt/Level": "{.3}"}, "coefficient": {"Loads/Silt/Level": "{.3}", "Loads/Silt/Coefficient": "0.5"}},
         **lists("Loads/Concentrated", {"crane": "crane: 0 0 {1} 1e6 3e5 -2e6"}), **lists("Loads/Crest line", {"line": "1e4 2e3 -5e4"}),
+        **lists("Loads/Force history", {"shaker": "shaker: 0 0 {1}; 0 0 -1; push.csv"}),
         "combination": {"all": {}, "factors": combination(factor=" 1.1"), **{f"without {load}": combination(load) for load in (*loads, "earthquake")}},
         "sustained moduli": {"none": {}, "concrete": {"Concrete/Sustained modulus": "1.4e10"},
                              "both": {"Concrete/Sustained modulus": "1.4e10", "Foundation/Sustained modulus": "9e9"}},
@@ -97,6 +98,7 @@ def written_files(directory):
             lines.append(" ".join(f"{x:.10g}" for x in (t, *xyz)))
         (directory / name).write_text("\n".join(lines) + "\n")
     (directory / "target.txt").write_text("".join(f"{t} {a}\n" for t, a in ((0, .3), (.1, .75), (.2, .75), (1, .2), (3, .07), (4, .05))))
+    (directory / "push.csv").write_text("time [s], force [N]\n0, 1e6\n0, 0\n0.1, 2e6\n")
     (directory / "mass.csv").write_text("depth [m], mass [kg/m^2]\n0, 0\n5, 8000\n25, 30000\n60, 60000\n200, 120000\n")
     (directory / "days.csv").write_text("day, upstream, downstream\n0, 6, 8\n30, 4, -2\n90, 10, 14\n")
     (directory / "arcs.csv").write_text("elevation,upstream_x,upstream_radius,thickness,downstream_radius,right_angle,left_angle\n"
@@ -134,7 +136,7 @@ class Choices:
         if unknown:
             sys.exit(f"combinations: the program has no entries {', '.join(sorted(unknown))}.")
         acting = {"weight": "Statics/Self-weight", "water": "water level", "uplift": "Loads/Uplift/Joints", "concentrated": "Loads/Concentrated",
-                  "crest line": "Loads/Crest line"}
+                  "crest line": "Loads/Crest line", "force history": "Loads/Force history"}
         missing = [load for load in loads if acting.get(load, load) not in self.factors]
         if missing:
             sys.exit(f"combinations: these loads are in no scene: {', '.join(missing)}. Add a factor to scales().")

@@ -4,6 +4,7 @@
 
 #include <voussoir/dam/dam_facts.h>
 #include <voussoir/dam/dam_geometry.h>
+#include <voussoir/dam/force_history.h>
 #include <voussoir/dam/joint_layout.h>
 #include <voussoir/dam/load_table.h>
 #include <voussoir/dam/scene.h>
@@ -36,8 +37,11 @@ namespace Voussoir
     /** Returns true if any monolith stands on a base joint that is not tied. */
     bool has_base_joints() const { return layout.has_open_bases; }
 
-    /** Returns true if a base or lift joint is not tied, so that only joints hold some blocks. */
-    bool has_loose_blocks() const { return layout.has_open_bases || layout.has_open_lifts; }
+    /** Returns true if only joints hold some blocks: a base or lift joint is not tied, or a body has no base node. */
+    bool has_loose_blocks() const
+    {
+      return layout.has_open_bases || layout.has_open_lifts || has_free_bodies;
+    }
 
     /** Returns true if the lowest base nodes are fixed. */
     bool base_is_held() const { return lowest_base.empty(); }
@@ -45,6 +49,10 @@ namespace Voussoir
     /** Returns the mean displacement x, y, z of the lowest base nodes, within 1 mm of the lowest height [m].
      * It is zero if these nodes are fixed. @p u: displacement, three values per free node [m]. */
     Vector3 base_motion(const Unknowns &u) const;
+
+    /** Returns the velocities of "Dynamics/Initial velocity", three values per free node [m/s]. Throws InputError for a
+     * block that the mesh does not have. */
+    Unknowns initial_velocity() const;
 
     /** Returns true if concrete or rock has other moduli in the static state than in the earthquake. */
     bool has_sustained_moduli() const;
@@ -73,6 +81,7 @@ namespace Voussoir
     std::shared_ptr<const HexMesh> water_volumes; ///< HexMesh::water
     std::vector<Neighbour *>       neighbours; ///< in the order of their calls; the first is the foundation
     std::vector<StaticLoad>        loads;      ///< active static loads, with the factors of their combination
+    std::vector<ForceInTime>       forces;     ///< with the factor of the load combination
 
     /** Inertia loads per unit base acceleration in x, y and z: minus the mass matrix, with added mass and
      * without rock, times the unit vector. Three values per free node [N s^2/m]. */
@@ -83,6 +92,8 @@ namespace Voussoir
     std::vector<Stress> initial_stress;
 
     StagedWeight staged; ///< state under staged self-weight
+
+    bool has_free_bodies = false; ///< true: a body has no node on the base
 
     bool has_water = false; ///< true: water pressure on the upstream face, from the reservoir
 

@@ -12,10 +12,12 @@ namespace Voussoir
   class DamGeometry
   {
   public:
-    /** Finds these points. @p source: name of the mesh in messages. Throws InputError if the surfaces "crest"
-     * and "upstream" have no common edge. */
+    /** Finds these points. If the surfaces "crest" and "upstream" have no common edge, the highest nodes replace it.
+     * @p source: name of the mesh in messages. Throws InputError if this is a single node. */
     DamGeometry(const SolidModel &model, const std::vector<Pair> &pairs, unsigned int n_joints,
                 const std::string &source);
+
+    bool has_crest; ///< false: the mesh has no common edge of "crest" and "upstream"
 
     /** Returns the arc length along the upstream edge of the crest [m], for the point of the edge that is
      * nearest to

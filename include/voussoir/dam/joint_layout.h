@@ -55,6 +55,8 @@ namespace Voussoir
     unsigned int             n_contraction = 0; ///< number of contraction joints, also if they are tied
     bool                     tied = false;      ///< true: all joints are tied, without pairs
 
+    std::set<unsigned int> without_keys; ///< joints KSM that are flat where joints cross
+
     bool has_open_bases = false, has_open_lifts = false; ///< joints that are not tied
 
     /** Laws of all pairs. JointLaws::of_joint has the law of each joint, then the law of tied pairs at the base. */

@@ -61,6 +61,14 @@ namespace Voussoir
     Vector3 place, force; ///< [m], [N]
   };
 
+  /** A force at a place, along a direction, with the values of a file. */
+  struct ForceHistory
+  {
+    std::string name;
+    Vector3     place, direction; ///< [m], [-]
+    std::string file;             ///< time [s] and force [N]
+  };
+
   /** Subsection "Loads": those besides water and weight, and combinations of all by name. */
   struct LoadParameters
   {
@@ -69,6 +77,7 @@ namespace Voussoir
     SiltParameters                     silt;
     UpliftParameters                   uplift;
     std::map<std::string, std::string> concentrated;            ///< name -> "x y z Fx Fy Fz" [m], [N]
+    std::string                        force_history;           ///< "NAME: POINT; DIRECTION; FILE; NAME: ..."
     std::string                        crest_line;              ///< "qx qy qz" [N/m], or empty
     std::string                        crest_edge = "upstream"; ///< or downstream
     std::string                        combination;             ///< chosen one; empty: all loads once
@@ -83,8 +92,9 @@ namespace Voussoir
      * @param load name of static_load_names(), or "earthquake" */
     double factor(const std::string &load) const;
 
-    std::map<std::string, PointLoad> point_loads() const; ///< throws InputError for malformed ones
-    Vector3                          line_load() const;   ///< on the crest's edge [N/m]
+    std::map<std::string, PointLoad> point_loads() const;     ///< throws InputError for malformed ones
+    std::vector<ForceHistory>        force_histories() const; ///< throws InputError for malformed ones
+    Vector3                          line_load() const;       ///< on the crest's edge [N/m]
   };
 
   /** A step of the static history, see StaticPath. */

@@ -134,17 +134,18 @@ namespace Voussoir
   /** All entries of an input file. */
   struct Scene
   {
-    std::string          name;                       ///< of the file, without directory and .prm
-    std::string          directory;                  ///< of the file; paths in the file are relative to it
-    std::string          impact_rule = "mean-force"; ///< "Dynamics/Impact"
-    std::string          scheme = "trapezoidal";     ///< time scheme of integrator_table()
-    double               explicit_step = -1.;        ///< [s]; -1: from the critical step
-    double               mass_scaling = 0.;          ///< wanted explicit step of own meshes [s]; 0: none
-    unsigned int         n_explicit = 1; ///< steps of an explicit scheme in a time step, set by Simulation
-    std::string          factors = "single"; ///< precision of the matrix factors of time steps
-    MeshParameters       mesh;
-    ElementParameters    elements;
-    Material             concrete;       ///< of volumes without an entry in @p concrete_zones
+    std::string  name;                       ///< of the file, without directory and .prm
+    std::string  directory;                  ///< of the file; paths in the file are relative to it
+    std::string  impact_rule = "mean-force"; ///< "Dynamics/Impact"
+    std::string  scheme = "trapezoidal";     ///< time scheme of integrator_table()
+    double       explicit_step = -1.;        ///< [s]; -1: from the critical step
+    double       mass_scaling = 0.;          ///< wanted explicit step of own meshes [s]; 0: none
+    unsigned int n_explicit = 1; ///< steps of an explicit scheme in a time step, set by Simulation
+    std::map<std::string, std::string> initial_velocity;   ///< "vx vy vz" [m/s] by block, or "all"
+    std::string                        factors = "single"; ///< precision of the matrix factors of time steps
+    MeshParameters                     mesh;
+    ElementParameters                  elements;
+    Material                           concrete; ///< of volumes without an entry in @p concrete_zones
     double               sustained = 0.; ///< sustained modulus of the concrete [Pa]; 0: Young's modulus
     ZoneEntry            concrete_zones;
     DampingParameters    damping;
@@ -173,6 +174,12 @@ namespace Voussoir
     {
       return output.tensile_strength > 0. ? output.tensile_strength : limits.tensile_strength;
     }
+
+    /** Returns true if the dam moves without an earthquake: by force histories or initial velocities. */
+    bool moves_alone() const { return !loads.force_history.empty() || !initial_velocity.empty(); }
+
+    /** Returns the initial velocities by physical id of the block, 0: all [m/s]. Throws InputError for malformed ones. */
+    std::map<int, Vector3> initial_velocities() const;
 
     std::vector<Warning> warnings;             ///< of read_scene()
     bool                 is_for_modes = false; ///< read by `voussoir modes`; set before read_scene()
@@ -204,7 +211,6 @@ namespace Voussoir
     void check_output(const std::string &file) const;
 
   private:
-    void add_dynamics(Entries &prm);
     void check_explicit() const; ///< what the explicit scheme does not have
   };
 

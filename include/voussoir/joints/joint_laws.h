@@ -91,7 +91,7 @@ namespace Voussoir
     std::vector<std::unique_ptr<JointLaw>> of_joint; ///< law of each joint
     std::vector<std::unique_ptr<JointLaw>> of_edges; ///< law of each pair on an edge, see assign()
 
-    /** Law of the pairs of each joint that share nodes with other pairs; empty: of_joint. */
+    /** Law of the pairs of each joint that share nodes with other pairs; empty or null: of_joint. */
     std::vector<std::unique_ptr<JointLaw>> of_crossings;
 
     /** Appends all pairs of a structure, with the law of their joint. A pair that shares nodes with other pairs has

@@ -13,14 +13,15 @@ namespace Voussoir
    *  - The mean normal of the downstream face minus that of the upstream face is steeper than 63 degrees, or
    *    its horizontal part is more than 40 degrees from x (downstream).
    *  - The mean outward normal of the base is less than 63 degrees from z.
-   *  - The height of the dam is not between 5 m and 400 m.
+   *  - The height of the dam is above 400 m.
    *
-   * A surface whose normals cancel, as those of a ring do, is not checked.
+   * Returns a warning for a height below 5 m, otherwise an empty string. A surface whose normals cancel, as those of a ring do, is not checked.
    *
    * @param mesh in metres, x downstream, y to the left bank, z up
    * @param parameters of the mesh. The check is skipped if the source is not "file".
    * @param source name of the file, for messages */
-  void check_axes_and_units(const HexMesh &mesh, const MeshParameters &parameters, const std::string &source);
+  std::string check_axes_and_units(const HexMesh &mesh, const MeshParameters &parameters,
+                                   const std::string &source);
 } // namespace Voussoir
 
 #endif

@@ -74,6 +74,10 @@ namespace Voussoir
      *  [m]. On rock the reference is the lowest part of the base. */
     Vector3 relative_to_base(unsigned int node) const;
 
+    /** Returns the velocity of a node of the mesh relative to the base [m/s]; with the explicit scheme half an explicit
+     * step before the present time. */
+    Vector3 velocity_relative_to_base(unsigned int node) const;
+
     /** Returns the absolute acceleration of a node of the mesh, the mean over the last step [m/s^2]; zero
      * before the first step. On rock with mass it is that of the displacements, which are absolute. */
     Vector3 absolute_acceleration(unsigned int node) const;

@@ -29,7 +29,8 @@ namespace Voussoir
    *
    * - velocity of the dam: 10 times (MotionBounds::oscillator + v0). The oscillator's velocity bounds the
    *   mean over the mass of a structure that only loses energy. The factor 10 allows for faster nodes. The
-   *   velocity v0 = sqrt(2 E0/M) has the static strain energy E0 as kinetic energy of the dam's mass M;
+   *   velocity v0 = sqrt(2 E0/M) has the energy E0 at the start as kinetic energy of the dam's mass M. Forces with a
+   *   history add to it;
    * - velocity of the rock: 10 times (PGV + v0). Soil layers and valleys amplify the outcrop motion by less;
    * - displacement from the static state: 10 PGD, and the displacement of an oscillator with a period of 1 s
    *   at the bound of the velocity;
