@@ -98,7 +98,7 @@ def units():
     def asked(*options):
         return ["motion", "unitless.prm", "--output", "m.csv", *options]
 
-    for headings, unit in (("t,X (g),Y (g),Z (g)\n", "g"), ("# Time [s], acceleration [cm/s2]\n", "cm/s^2"), ("t ax/gal ay/gal az/gal\n", None),
+    for headings, unit in (("t,X (g),Y (g),Z (g)\n", "g"), ("# Time [s], acceleration [cm/s2]\n", "cm/s^2"), ("t ax/gal ay/gal az/gal\n", "cm/s^2"),
                            ("Time;AX[m/s/s];AY[m/s/s];AZ[m/s/s]\n", "m/s^2"), ("# record in Gal\nt,x,y,z\n", "cm/s^2"), ("t,a_x,a_y,a_z\n", None),
                            ("# g, cm/s2 and m/s2\n", None)):
         table_of(headings, 2.)
