@@ -149,7 +149,8 @@ GOOD = {
     "at2 lower case": (at2("npts= 64, dt= .01 sec", title="acceleration in ", unit="units of g").lower(), AT2, ([v * G / 9.81 for v in NS], 0, 0), (), 1e-4),
     "at2 in cm/s2": (at2("NPTS= 64, DT= .0100 SEC", unit="UNITS OF CM/S/S", scale=1), AT2, (NS, 0, 0), ("unit cm/s^2",), 1e-3),
     "at2 down": (at2("NPTS= 64, DT= .0100 SEC", UP, direction="DWN"), {"File z": "f"}, (0, 0, [-v * G / 9.81 for v in UP]), ("DWN (-1 z)",), 1e-4),
-    "column": (rows(NS, "%.4f", 1), {"File x": "f", "File step": ".01", "Unit": "gal"}, (NS, 0, 0), ("table", "unit gal (of the input file)", "steps of 0.01 s"), 1e-3),
+    "column": (rows(NS, "%.4f", 1), {"File x": "f", "File step": ".01", "Unit": "gal"}, (NS, 0, 0),
+               ("table", "unit gal (of the input file)", "steps of 0.01 s"), 1e-3),
     "column with heading": ("Acc. (gal)\n" + rows(NS, "%.4f", 1), {"File": "f", "File step": ".01", "Unit": "gal", "Azimuths": "x: 210; f: 210"}, (NS, 0,
                             0), (), 1e-3),
     "table by place": (columns("", *THREE), {"File": "f", "Unit": "gal"}, THREE, ("columns taken as t, a_x, a_y, a_z without headings",), 1e-4),
@@ -184,6 +185,10 @@ def good():
             for k, row in enumerate(motion):
                 value = component[k] if component else 0.
                 expect(abs(100 * row[d + 1] - value) <= tolerance, f"{name}: {'xyz'[d]} of sample {k} is {100 * row[d + 1]}, expected {value}")
+        spectra = [[float(word) for word in row.split()] for row in re.search(r"RotD100.*\n((?:[ \d.]+\n)+)", shown)[1].splitlines()]
+        expect(len(spectra) == 9 and all(row[5] >= max(row[1:3]) - 1e-3 and row[4] <= row[5] for row in spectra), f"{name}: {spectra}")
+        if name == "knet turned":  # motion in one direction, 60 degrees from x
+            expect(all(abs(row[5] - 2 * row[1]) < 3e-3 and abs(row[4] - math.sqrt(.5) * row[5]) < 2e-3 for row in spectra), f"{spectra}")
         peak = re.search(r"^peak acceleration\s+g\s+(\S+)\s+(\S+)\s+(\S+)", shown, re.M)
         for d, component in enumerate(expected):
             expect(abs(float(peak[d + 1]) - max(map(abs, component or [0])) / 980.665) < 6e-4, f"{name}: {peak[0]}")
