@@ -210,7 +210,8 @@ namespace Voussoir
         channels += (channels.empty() ? "" : "; ") + channel.name + " (" + text + ")";
       }
       motion.notes.push_back("'" + source.name + "': " + record.notes + "; channels " + channels + "; unit " +
-                             own_unit + (record.is_table && record.unit.empty() ? " (of the input file)" : "") +
+                             own_unit +
+                             (record.is_table && record.unit.empty() ? " (of the input file)" : "") +
                              ", steps of " + number_text(record.dt) + " s");
       if (is_coarser(motion.dt, record.dt))
       {
