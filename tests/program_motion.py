@@ -98,7 +98,7 @@ def units():
     def asked(*options):
         return ["motion", "unitless.prm", "--output", "m.csv", *options]
 
-    for headings, unit in (("t,X (g),Y (g),Z (g)\n", "g"), ("# Time [s], acceleration [cm/s2]\n", "cm/s^2"), ("t ax/gal ay/gal az/gal\n", None),
+    for headings, unit in (("t,X (g),Y (g),Z (g)\n", "g"), ("# Time [s], acceleration [cm/s2]\n", "cm/s^2"), ("t ax/gal ay/gal az/gal\n", "cm/s^2"),
                            ("Time;AX[m/s/s];AY[m/s/s];AZ[m/s/s]\n", "m/s^2"), ("# record in Gal\nt,x,y,z\n", "cm/s^2"), ("t,a_x,a_y,a_z\n", None),
                            ("# g, cm/s2 and m/s2\n", None)):
         table_of(headings, 2.)
@@ -213,6 +213,9 @@ def corrections():
         expect(abs(max(map(abs, a)) - pga * G) < 1e-9 and abs(peak - pga * abs(factor)) < 1e-3, f"{name}: peak acceleration")
         mine, its = math.hypot(*original), math.hypot(*a)
         expect(sum(p * q for p, q in zip(original, a)) > .5 * mine * its, f"{name}: another motion")
+        first = float(re.search("multiplied by ([0-9.]+)", note[0])[1])
+        expect(all(abs(a[k] - first * original[k]) < .01 * abs(a[k]) + 1e-12 for k in (0, -1)), f"{name}: additions at the ends: {a[0]}, {a[-1]}")
+        expect("duration D5-95" in note[0] and "peak displacement" in note[0], note[0])
     expect(all(row[3] == 0 for row in rows), "a component without record is matched")
     for entries, parts in {("Match=true", "Target spectrum="): ("Motion/Match", "Motion/Target spectrum"),
                            ("Target spectrum=none.csv",): ("none.csv", "cannot be opened"),

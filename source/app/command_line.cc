@@ -181,6 +181,7 @@ namespace Voussoir
         for (const std::string &note : motion.notes)
           std::cout << note << '\n';
         print_report(report_motion(motion, scene.motion), std::cout);
+        print_spectra(motion, scene.motion, std::cout);
         if (const double factor = scene.loads.factor("earthquake"); factor != 1.)
           std::cout << "The load combination multiplies this motion by " << factor
                     << " (Loads/Combination). These numbers do not include the factor.\n";

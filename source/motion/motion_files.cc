@@ -9,28 +9,108 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <sstream>
 
 namespace Voussoir
 {
   namespace
   {
+    /** File of a motion. */
     struct Source
     {
-      std::string  path;
-      unsigned int first; ///< component of the motion for the first one of the record
+      std::string  name, path;
+      int          direction; ///< 0, 1, 2: of File x, y, z; -1: File
       MotionRecord record;
     };
+
+    /** Sets the parts of a channel in x, y and z without "Motion/Azimuths". Throws InputError if its direction
+     * does not fit. */
+    void place(const Source &source, MotionChannel &channel)
+    {
+      const bool is_vertical = channel.axis == 'z';
+      if (source.direction < 0 ? channel.axis == 'h' || channel.axis == '?'
+                               : channel.axis != '?' && is_vertical != (source.direction == 2))
+        throw InputError("The ground motion file '" + source.name + "' has the " +
+                         (is_vertical ? "vertical " : "horizontal ") + "channel '" + channel.name +
+                         (source.direction < 0
+                              ? "', but Motion/File needs a_x, a_y, a_z. Set Motion/Azimuths, as in \"x: "
+                                "120\" with the azimuth of the downstream direction, or correct the headings."
+                              : "', but it is given for the other direction. Exchange the files."));
+      channel.parts[source.direction < 0 ? channel.axis - 'x' : source.direction] = channel.sign;
+    }
+
+    /** Sets the direction of a channel as "Motion/Azimuths" states it, and its parts in x, y and z. Returns the
+     * name in Azimuths, or an empty string. Throws InputError if there is no direction. */
+    std::string turn(const MotionParameters &parameters, const Source &source, MotionChannel &channel)
+    {
+      std::string used;
+      for (const std::string &key : {source.name, channel.name})
+        if (const auto found = parameters.azimuths.find(key);
+            found != parameters.azimuths.end() && key != "x")
+          used = key, channel.axis = 'h', channel.azimuth = found->second;
+      if (channel.axis == '?' && source.direction == 2)
+        channel.axis = 'z';
+      if (channel.axis != 'h' && channel.axis != 'z')
+        throw InputError("Motion/Azimuths: the channel '" + channel.name + "' of '" + source.name +
+                         "' has no azimuth. Add it by its name or file, as in \"" + source.name +
+                         ": 90\", or remove Azimuths.");
+      const double angle = (parameters.azimuths.at("x") - channel.azimuth) * M_PI / 180.;
+      // y is x turned by 90 degrees counterclockwise seen from above
+      channel.parts = {{std::cos(angle), std::sin(angle), 0.}};
+      if (channel.axis == 'z')
+        channel.parts = {{0., 0., channel.sign}};
+      return used;
+    }
+
+    /** Calls turn() for all channels. Throws InputError unless there are at most two horizontal channels,
+     * perpendicular, and one vertical channel. */
+    void turn_all(const MotionParameters &parameters, std::vector<Source> &sources)
+    {
+      std::map<std::string, double> unused = parameters.azimuths;
+      std::vector<double>           azimuths;
+      std::string                   names;
+      unsigned int                  n_vertical = 0;
+      unused.erase("x");
+      for (Source &source : sources)
+        for (MotionChannel &channel : source.record.channels)
+        {
+          unused.erase(turn(parameters, source, channel));
+          names += (names.empty() ? "" : ", ") + channel.name;
+          if (channel.axis == 'z')
+            ++n_vertical;
+          else
+            azimuths.push_back(channel.azimuth);
+        }
+      if (!unused.empty())
+        throw InputError("Motion/Azimuths: there is no channel or file '" + unused.begin()->first +
+                         "'. The channels are " + names + ". Correct the name.");
+      if (azimuths.size() > 2 || n_vertical > 1 ||
+          (azimuths.size() == 2 && std::abs(std::cos((azimuths[0] - azimuths[1]) * M_PI / 180.)) > .03))
+        throw InputError("Motion/Azimuths: the channels are " + names +
+                         ". Give at most one vertical channel and two horizontal channels, which must be "
+                         "perpendicular within 1.5 degrees.");
+    }
 
     std::vector<Source> read_sources(const MotionParameters &parameters, const std::string &scene_directory)
     {
       std::vector<Source> sources;
-      const auto          read = [&](const std::string &name, unsigned int first, unsigned int n_components)
+      const bool          is_turned = !parameters.azimuths.empty();
+      const auto          read = [&](const std::string &name, const int direction)
       {
         const std::string path = (std::filesystem::path(scene_directory) / name).string();
-        sources.push_back({path, first, read_motion_record(path, n_components)});
+        sources.push_back({name, path, direction,
+                           read_motion_record(path,
+                                              is_turned       ? 0
+                                              : direction < 0 ? 3
+                                                              : 1,
+                                              parameters.file_step)});
+        for (MotionChannel &channel : sources.back().record.channels)
+          if (!is_turned)
+            place(sources.back(), channel);
         if (const std::string unit = sources.back().record.unit;
-            !unit.empty() && unit != unit_name(parameters.unit, "acceleration"))
+            sources.back().record.is_table && !unit.empty() &&
+            unit != unit_name(parameters.unit, "acceleration"))
           throw InputError("The ground motion file '" + name + "' has headings with the unit " + unit +
                            ", but Motion/Unit is " + parameters.unit + ". Set Motion/Unit = " + unit +
                            ", or correct the headings.");
@@ -41,10 +121,12 @@ namespace Voussoir
                            " s. Cut the records to the same first time.");
       };
       if (!parameters.file.empty())
-        read(parameters.file, 0, 3);
+        read(parameters.file, -1);
       for (unsigned int d = 0; d < 3; ++d)
         if (!parameters.component_files[d].empty())
-          read(parameters.component_files[d], d, 1);
+          read(parameters.component_files[d], d);
+      if (is_turned)
+        turn_all(parameters, sources);
       return sources;
     }
 
@@ -105,18 +187,32 @@ namespace Voussoir
     GroundMotion              motion;
     motion.dt = parameters.time_step;
     motion.acceleration.resize(find_n_steps(parameters, sources, motion.notes) + 1, {{0., 0., 0.}});
-    const double unit = unit_of_acceleration(parameters.unit);
     for (const Source &source : sources)
     {
       const MotionRecord &record = source.record;
-      const double        factor = parameters.factor * (record.in_g ? standard_gravity : unit);
-      for (std::size_t c = 0; c < record.components.size(); ++c)
+      const std::string   own_unit = record.is_table ? parameters.unit : record.unit;
+      const double        factor = parameters.factor * unit_of_acceleration(own_unit);
+      std::string         channels;
+      for (const MotionChannel &channel : record.channels)
       {
         const std::vector<double> a =
-            resample(record.components[c], record.dt, motion.dt, motion.acceleration.size(), begin);
-        for (std::size_t k = 0; k < a.size(); ++k)
-          motion.acceleration[k][source.first + c] = factor * a[k];
+            resample(channel.values, record.dt, motion.dt, motion.acceleration.size(), begin);
+        std::string text;
+        for (unsigned int d = 0; d < 3; ++d)
+          if (const double part = std::round(1e12 * channel.parts[d]) / 1e12; part != 0.)
+          {
+            for (std::size_t k = 0; k < a.size(); ++k)
+              motion.acceleration[k][d] = parameters.azimuths.empty()
+                                              ? part * factor * a[k]
+                                              : motion.acceleration[k][d] + part * factor * a[k];
+            text += (text.empty() ? "" : ", ") + number_text(std::round(1e3 * part) / 1e3) + " " + "xyz"[d];
+          }
+        channels += (channels.empty() ? "" : "; ") + channel.name + " (" + text + ")";
       }
+      motion.notes.push_back("'" + source.name + "': " + record.notes + "; channels " + channels + "; unit " +
+                             own_unit +
+                             (record.is_table && record.unit.empty() ? " (of the input file)" : "") +
+                             ", steps of " + number_text(record.dt) + " s");
       if (is_coarser(motion.dt, record.dt))
       {
         std::ostringstream note;
@@ -137,9 +233,9 @@ namespace Voussoir
       if (parameters.source == "file")
         for (const MotionParameters &part : parameters.parts())
           for (const Source &source : read_sources(part, scene_directory))
-            for (const auto &component : source.record.components)
-              for (const double a : component)
-                peak = std::max(peak, source.record.in_g || !source.record.unit.empty() ? weak : std::abs(a));
+            for (const MotionChannel &channel : source.record.channels)
+              for (const double a : channel.values)
+                peak = std::max(peak, !source.record.unit.empty() ? weak : std::abs(a));
     }
     catch (const InputError &)
     {

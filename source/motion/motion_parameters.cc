@@ -77,17 +77,32 @@ namespace Voussoir
 
   void MotionParameters::add_file_parameters(Entries &prm)
   {
-    prm.add_parameter("File", file,
-                      "Source = file: table with the columns t [s], a_x, a_y, a_z, separated by blanks or "
-                      "commas. The text after # is a comment. The path is relative to the input file. Empty: "
-                      "File x, File y and File z are used.",
-                      Patterns::Anything());
+    prm.add_parameter(
+        "File", file,
+        "Source = file: table with the columns t [s], a_x, a_y, a_z, separated by blanks or "
+        "commas. The text after # is a comment. Headings state the sequence of the columns. With "
+        "Azimuths: table or file of an agency with one to three channels. The path is relative to "
+        "the input file. Empty: File x, File y and File z are used.",
+        Patterns::Anything());
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter(
           std::string("File ") + names[d], component_files[d],
           std::string("Source = file: component in ") + names[d] +
-              ", as a table with the columns t [s], a, or as a PEER AT2 file. Empty: the component is zero.",
+              ", as a table with the columns t [s], a, or as a file of K-NET, KiK-net, ESM, AFAD, SMC, COSMOS, CSMIP "
+              "or PEER (AT2). Empty: the component is zero.",
           Patterns::Anything());
+    prm.add_parameter(
+        "File step", file_step,
+        "Source = file: sampling interval of tables without times [s]. 0: all tables have times.",
+        {1e-4, .05, true});
+    prm.add_parameter(
+        "Azimuths", azimuths,
+        "Source = file: azimuth of the axis x, as in \"x: 120; EW: 90; NS: 0\" [degrees clockwise from north]. The "
+        "horizontal channels of the files are then turned to x and y. The directions of the channels are those in "
+        "the files. Other entries of the list replace them, by the name of the channel (see the log) or of the "
+        "file. Empty: the channels are x, y and z.",
+        Patterns::Map(Patterns::Anything(), Patterns::Double(-360., 360.), 0, Patterns::Map::max_int_value,
+                      ";"));
     prm.add_parameter(
         "Abutments", abutments,
         "Source = file: other motions at the banks, as \"right Z: FILES; left Z: FILES\", with the height Z [m] "
@@ -100,7 +115,7 @@ namespace Voussoir
     prm.add_parameter(
         "Unit", unit,
         "Unit of the acceleration in tables and in Target spectrum, such as g (9.80665 m/s^2), m/s^2, cm/s^2 or "
-        "gal. AT2 files are always in g.",
+        "gal. Files of agencies have their own unit.",
         Patterns::Selection(unit_choices("acceleration")));
     prm.add_parameter("Baseline", baseline,
                       "Source = file: correction of each component over its length in the run. none. linear: "
@@ -242,6 +257,11 @@ namespace Voussoir
       if (p.source == "artificial" && (!p.file.empty() || components_given))
         throw InputError("A file is given in section Motion, but Motion/Source is artificial: set Source = "
                          "file, or remove the file.");
+      require(p.file_step == 0. || (p.file_step > 0. && p.file_step < 1e3), "File step", p.file_step,
+              "it must be positive, at most 1000 s, or 0: the files have times");
+      if (!p.azimuths.empty() && p.azimuths.count("x") == 0)
+        throw InputError(
+            "Motion/Azimuths has no azimuth of the axis x. Add it, as in \"x: 120; EW: 90; NS: 0\".");
     }
 
     void check_artificial(const MotionParameters &p)

@@ -6,101 +6,20 @@
 
 #include <algorithm>
 #include <cctype>
-#include <charconv>
 #include <cmath>
-#include <cstdint>
-#include <filesystem>
-#include <fstream>
 #include <set>
+#include <sstream>
 
 namespace Voussoir
 {
   namespace
   {
-    /** Line of a file with at least one word. */
-    struct Line
-    {
-      std::size_t              number;
-      std::vector<std::string> words; // separated by blanks, commas, semicolons or equal signs
-    };
-
-    [[noreturn]] void fail(const std::string &file, std::size_t line, const std::string &message)
-    {
-      throw InputError("Ground motion file '" + file + "', line " + std::to_string(line) + ": " + message);
-    }
-
-    constexpr std::uintmax_t largest_file = 100000000; // bytes
-    constexpr std::size_t    longest_line = 1000000;
-
-    /** Returns the content of a file. Throws InputError for pipes and devices, which may have no end. */
-    std::string read_text(const std::string &file)
-    {
-      namespace fs = std::filesystem;
-      std::error_code error;
-      const auto      status = fs::status(file, error);
-      if (fs::exists(status) && !fs::is_regular_file(status))
-        throw InputError("The ground motion file '" + file + "' is " +
-                         (fs::is_directory(status) ? "a directory" : "a pipe or a device") +
-                         ". Give the path of a file in section Motion.");
-      std::ifstream in(file, std::ios::binary);
-      if (!in)
-        throw InputError("The ground motion file '" + file +
-                         "' cannot be opened. Paths in section Motion are relative to the input file.");
-      const std::uintmax_t size = fs::file_size(file, error);
-      if (error || size > largest_file)
-        throw InputError("The ground motion file '" + file +
-                         "' is larger than 100 MB and cannot be an acceleration record. Check the path.");
-      std::string text(size, ' ');
-      in.read(text.data(), size);
-      if (in.gcount() != static_cast<std::streamsize>(size))
-        throw InputError("The ground motion file '" + file + "' cannot be read completely. Check the disk.");
-      return text;
-    }
-
-    /** Returns the words of a line, without its comment. */
-    std::vector<std::string> split(std::string text)
-    {
-      const char *separators = " \t\r,;=";
-      text = text.substr(0, text.find('#'));
-      std::vector<std::string> words;
-      for (std::size_t end = 0, begin;
-           (begin = text.find_first_not_of(separators, end)) != std::string::npos;)
-      {
-        end = std::min(text.find_first_of(separators, begin), text.size());
-        words.push_back(text.substr(begin, end - begin));
-      }
-      return words;
-    }
-
-    /** Returns true if the whole word is a number, and stores it in @p number. Infinity and NaN are numbers
-     * here. Accepts +1., -.64E-02 and 1.0D-3. The decimal sign is a point in every locale. */
-    bool to_number(std::string word, double &number)
-    {
-      std::replace_if(
-          word.begin(), word.end(), [](char c) { return c == 'D' || c == 'd'; }, 'e');
-      const char *begin = word.data(), *end = begin + word.size();
-      if (begin != end && *begin == '+')
-        ++begin;
-      const auto result = std::from_chars(begin, end, number);
-      if (result.ec == std::errc::result_out_of_range && word.find("e-") != std::string::npos)
-        number = 0.; // smaller than the smallest number
-      else if (result.ec != std::errc())
-        return false;
-      return result.ptr == end;
-    }
-
-    bool is_number(const std::string &word)
-    {
-      double ignored = 0.;
-      return to_number(word, ignored);
-    }
-
     /** Returns the unit of acceleration in headings such as "a_x [cm/s2]" or "X (g)", as unit_name(). The letter
      * g is a unit in parentheses only. Returns an empty string for no unit and for several units. */
-    std::string unit_in(std::string text)
+    std::string unit_in(const std::string &headings)
     {
-      std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-      const auto is_part = [](const unsigned char c)
+      const std::string text = lower_case(headings);
+      const auto        is_part = [](const unsigned char c)
       { return std::isalnum(c) || c == '/' || c == '^' || c >= 0x80; };
       std::set<std::string> found;
       for (std::size_t begin = 0, end; begin < text.size(); begin = end)
@@ -118,107 +37,53 @@ namespace Voussoir
       return found.size() == 1 ? *found.begin() : "";
     }
 
-    /** Returns all lines with words. Lines end in LF, CR LF or CR. @p headings receives the text before the
-     * first number. */
-    std::vector<Line> read_lines(const std::string &file, std::string &headings)
+    /** Line of a table with at least one word. */
+    struct Line
     {
-      const std::string text = read_text(file);
-      const std::size_t first = text.compare(0, 3, "\xEF\xBB\xBF") == 0 ? 3 : 0; // byte order mark
-      if (text.find('\0') != std::string::npos)
-        throw InputError("The ground motion file '" + file +
-                         "' is not plain text (it has zero bytes). Save it as text, in ASCII or UTF-8.");
+      std::size_t              number;
+      std::vector<std::string> words;
+    };
+
+    /** Returns all lines with words, without comments. Throws InputError for decimal commas. @p headings receives
+     * the text before the first number. */
+    std::vector<Line> lines_of(const RecordText &text, std::string &headings)
+    {
       std::vector<Line> lines;
-      std::size_t       number = 0;
-      for (std::size_t begin = first, end; begin < text.size(); begin = end + 1)
+      for (std::size_t k = 0; k < text.lines.size(); ++k)
       {
-        end = std::min(text.find_first_of("\r\n", begin), text.size());
-        ++number;
-        if (end - begin > longest_line)
-          fail(file, number,
-               "the line has more than a million characters, so the file is not a record. Check the path.");
-        Line line{number, split(text.substr(begin, end - begin))};
+        const std::string content = text.lines[k].substr(0, text.lines[k].find('#'));
+        Line              line{k, words_of(content)};
         if (lines.empty() || std::none_of(lines.back().words.begin(), lines.back().words.end(), is_number))
-          headings += text.substr(begin, end - begin) + "\n";
+          headings += text.lines[k] + "\n";
+        const auto is_digit = [&](const std::size_t at)
+        { return at < content.size() && std::isdigit(static_cast<unsigned char>(content[at])); };
+        std::size_t n_commas = 0; // between digits, as in 0,01
+        for (std::size_t at = 1; at < content.size(); ++at)
+          n_commas += content[at] == ',' && is_digit(at - 1) && is_digit(at + 1);
+        if (n_commas > 0 && line.words.size() > n_commas + 1 && content.find('.') == std::string::npos)
+          text.fail(
+              k, std::to_string(line.words.size()) +
+                     " columns, or decimal commas. Decimals have a point, not a comma: replace the commas.");
         if (!line.words.empty())
           lines.push_back(std::move(line));
-        if (end + 1 < text.size() && text[end] == '\r' && text[end + 1] == '\n')
-          ++end;
       }
       return lines;
     }
 
-    double read_number(const std::string &file, const Line &line, const std::string &word)
+    double number_of(const RecordText &text, const Line &line, const std::string &word, const bool is_first)
     {
       double number = 0.;
       if (!to_number(word, number) || !std::isfinite(number))
-        fail(file, line.number, "'" + word + "' is not a finite number. Correct or remove it.");
+        text.fail(line.number, "'" + word + "' is not a finite number. " +
+                                   (is_first ? "The file is no table, and none of the known formats (" +
+                                                   record_format_names() + "). Give one of these."
+                                             : "Correct or remove it."));
       return number;
-    }
-
-    bool contains(const Line &line, const std::string &word)
-    {
-      return std::find(line.words.begin(), line.words.end(), word) != line.words.end();
-    }
-
-    /** Returns the line of an AT2 header (usually the fourth) with the number and the interval of the
-     * samples. Returns lines.end() for a table. */
-    std::vector<Line>::const_iterator find_at2_header(const std::vector<Line> &lines)
-    {
-      for (auto line = lines.begin(); line != lines.end() && line - lines.begin() < 8; ++line)
-        if (contains(*line, "NPTS") && contains(*line, "DT"))
-          return line;
-      return lines.end();
-    }
-
-    /** Throws InputError if a line of an AT2 header states another unit than "UNITS OF G". */
-    void check_at2_unit(const std::string &file, const Line &line)
-    {
-      for (std::size_t k = 2; k < line.words.size(); ++k)
-        if (line.words[k - 2] == "UNITS" && line.words[k - 1] == "OF" && line.words[k] != "G" &&
-            line.words[k] != "g")
-          fail(file, line.number,
-               "the header states \"UNITS OF " + line.words[k] +
-                   "\", but AT2 files are read in g. Correct the header, or give a table of t and a with its "
-                   "unit in Motion/Unit.");
-    }
-
-    MotionRecord read_at2(const std::string &file, const std::vector<Line> &lines,
-                          std::vector<Line>::const_iterator header)
-    {
-      for (auto line = lines.begin(); line != header; ++line)
-        if (contains(*line, "VELOCITY") || contains(*line, "DISPLACEMENT"))
-          fail(file, line->number, "this is not a record of acceleration. Give the .AT2 file instead.");
-        else
-          check_at2_unit(file, *line);
-
-      // "4000 .01 NPTS, DT" or "NPTS= 4000, DT= .01 SEC": two numbers in this order.
-      std::vector<double> numbers;
-      double              number = 0.;
-      for (const std::string &word : header->words)
-        if (to_number(word, number))
-          numbers.push_back(number);
-      if (numbers.size() != 2 || !(numbers[0] >= 2.) || !(numbers[1] > 0.) ||
-          !std::isfinite(numbers[0] * numbers[1]))
-        fail(file, header->number, "expected the number of points NPTS and the time step DT, both positive.");
-
-      MotionRecord record;
-      record.dt = numbers[1];
-      record.in_g = true;
-      record.components.resize(1);
-      for (auto line = header + 1; line != lines.end(); ++line)
-        for (const std::string &word : line->words)
-          record.components[0].push_back(read_number(file, *line, word));
-      if (record.components[0].size() != numbers[0])
-        fail(file, header->number,
-             "NPTS is " + std::to_string(std::lround(numbers[0])) + ", but the file holds " +
-                 std::to_string(record.components[0].size()) +
-                 " values. Download the file again, or correct NPTS.");
-      return record;
     }
 
     /** Returns the time step of @p times [s]. Throws InputError if the steps differ by more than the rounding
      * of the times. */
-    double equal_step(const std::string &file, const std::vector<double> &times,
+    double equal_step(const RecordText &text, const std::vector<double> &times,
                       const std::vector<std::size_t> &lines)
     {
       std::vector<double> steps;
@@ -226,25 +91,149 @@ namespace Voussoir
       {
         steps.push_back(times[k] - times[k - 1]);
         if (steps.back() <= 0.)
-          fail(file, lines[k],
-               "time does not increase. Sort the lines, and write the times with more digits.");
+          text.fail(lines[k],
+                    "time does not increase. Sort the lines, and write the times with more digits.");
       }
       std::vector<double> sorted = steps;
       std::nth_element(sorted.begin(), sorted.begin() + sorted.size() / 2, sorted.end());
       const double usual = sorted[sorted.size() / 2];
       for (std::size_t k = 0; k < steps.size(); ++k)
         if (std::abs(steps[k] - usual) > 0.05 * usual)
-          fail(file, lines[k + 1],
-               "the time step is " + number_text(steps[k]) + " s, elsewhere " + number_text(usual) +
-                   " s. Resample the record at equal steps.");
+          text.fail(lines[k + 1], "the time step is " + number_text(steps[k]) + " s, elsewhere " +
+                                      number_text(usual) + " s. Resample the record at equal steps.");
       const double step = (times.back() - times.front()) / steps.size();
       for (std::size_t k = 0; k < times.size(); ++k)
         if (std::abs(times[k] - times.front() - k * step) > 0.1 * step)
-          fail(file, lines[k],
-               "the time is " + number_text(times[k]) + " s, but with equal steps between the first and " +
-                   "the last it would be " + number_text(times.front() + k * step) +
-                   " s. Resample the record at equal steps.");
+          text.fail(lines[k], "the time is " + number_text(times[k]) +
+                                  " s, but with equal steps between the first and " +
+                                  "the last it would be " + number_text(times.front() + k * step) +
+                                  " s. Resample the record at equal steps.");
       return step;
+    }
+
+    /** Heading of a column. Quantity: t, a, v (velocity), d (displacement), or ? (unknown). */
+    struct Column
+    {
+      std::string   text, unit;
+      char          quantity = '?';
+      MotionChannel channel;
+    };
+
+    /** Returns the meaning of a heading such as "a_x [cm/s2]", "Acc. N-S (g)", EW or "Time (s)". */
+    Column column_of(const std::string &heading)
+    {
+      Column            column{trimmed(heading), "", '?', {}};
+      const std::string text = lower_case(column.text) + " ";
+      std::string       name;
+      for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1)
+      {
+        end = text.find_first_of(" ,()[]", begin);
+        const std::string part = text.substr(begin, end - begin);
+        const std::size_t slash = std::min(part.find('/'), part.size());
+        std::size_t       n_name = part.size(); // of these characters
+        if (text[end] == ')' || text[end] == ']' || slash < part.size() || part == "gal")
+          for (const char *dimension : {"acceleration", "velocity", "length", "time"})
+            for (const std::size_t first : {std::size_t(0), slash + 1}) // cm/s2, ax/gal
+              if (n_name == part.size() && first <= slash + (slash < part.size()))
+                if (const std::string unit = unit_name(part.substr(first), dimension); !unit.empty())
+                  n_name = first, column.unit = unit,
+                  column.quantity = dimension[0] == 'l' ? 'd' : dimension[0];
+        for (const unsigned char c : column.text.substr(begin, n_name))
+          if (std::isalnum(c))
+            name += c;
+      }
+      MotionChannel     whole, rest;
+      const std::string lower = lower_case(name);
+      whole.set_direction(name);
+      char quantity = '?';
+      if (whole.axis != '?' && (name.size() > 1 || std::string("xyznew").find(lower) != std::string::npos))
+        quantity = 'a', column.channel = whole;
+      std::istringstream keys("acceleration accel acc a velocity vel v displacement disp d u time t");
+      for (std::string key; quantity == '?' && keys >> key; rest = {})
+        if (lower.compare(0, key.size(), key) == 0)
+        {
+          rest.set_direction(name.substr(key.size()));
+          if (rest.axis == 'h' && rest.name.size() == 1 && std::isdigit(rest.name[0] & 0x7f))
+            rest.axis = '?'; // a1: a number, not an azimuth
+          if (rest.axis != '?' || key.size() > 2 || lower == key)
+            quantity = key[0] == 'u' ? 'd' : key[0], column.channel = rest;
+        }
+      if (column.quantity == '?')
+        column.quantity = quantity;
+      return column;
+    }
+
+    /** Returns the headings of the columns, separated by semicolons, tabs, commas or blanks. */
+    std::vector<Column> columns_of(const std::string &line)
+    {
+      const std::size_t   at = std::min(line.find_first_of(";\t"), line.find(','));
+      const char          separator = line.find(';') < line.size() ? ';' : at < line.size() ? line[at] : ' ';
+      std::vector<Column> columns;
+      std::istringstream  cells(line);
+      for (std::string cell; std::getline(cells, cell, separator);)
+        if (separator == ' ' && !columns.empty() && !cell.empty() && (cell[0] == '(' || cell[0] == '['))
+          columns.back() = column_of(columns.back().text + " " + cell);
+        else if (separator != ' ' || !trimmed(cell).empty())
+          columns.push_back(column_of(cell));
+      return columns;
+    }
+
+    /** Throws InputError unless the columns are accelerations of one unit, and one time if @p is_timed. */
+    void check_columns(const RecordText &text, const std::size_t line, const std::vector<Column> &columns,
+                       const bool is_timed)
+    {
+      unsigned int                      n_times = 0;
+      std::string                       unit;
+      std::set<std::pair<char, double>> directions;
+      for (const Column &column : columns)
+      {
+        const std::string name = "the column '" + column.text + "' ";
+        if (column.quantity == 'v' || column.quantity == 'd')
+          text.fail(line, name + "is a " + (column.quantity == 'v' ? "velocity" : "displacement") +
+                              ", not an acceleration. Give accelerations, or remove the column.");
+        if (column.quantity == '?')
+          text.fail(line,
+                    name + "is unknown. Use headings such as t, a_x, a_y, a_z, or Time (s), Acc. NS (g).");
+        if (column.quantity == 't' && (++n_times > 1 || (!column.unit.empty() && column.unit != "s")))
+          text.fail(line,
+                    name + "is " + (n_times > 1 ? "a second time." : "not in s.") + " Correct the table.");
+        if (column.quantity == 'a' && !column.unit.empty() && !unit.empty() && unit != column.unit)
+          text.fail(line, name + "has another unit than " + unit + ". Give all columns in one unit.");
+        if (column.quantity == 'a' && !column.unit.empty())
+          unit = column.unit;
+        if (column.channel.axis != '?' &&
+            !directions.insert({column.channel.axis, column.channel.azimuth}).second)
+          text.fail(line, name + "has the direction of another one. Correct the headings.");
+      }
+      if (!columns.empty() && n_times != (is_timed ? 1 : 0))
+        text.fail(line, "there is no column for the time. Name it t, or set Motion/File step.");
+    }
+
+    /** Reads the rows. Throws InputError if the number of columns differs from @p n_columns (0: that of the first
+     * row). */
+    std::vector<std::vector<double>> rows_of(const RecordText &text, const std::vector<Line> &lines,
+                                             const std::size_t n_columns, const std::size_t n_channels)
+    {
+      std::vector<std::vector<double>> rows;
+      for (const Line &line : lines)
+      {
+        const std::size_t n = line.words.size();
+        if (n != (n_columns > 0 ? n_columns : lines[0].words.size()))
+          text.fail(
+              line.number,
+              std::to_string(n) + (n == 1 ? " column. " : " columns. ") +
+                  (n_channels == 1
+                       ? "Expected two, t and a, or one and Motion/File step, or a record of an agency; "
+                         "a file with t, a_x, a_y, a_z belongs to the entry Motion/File. "
+                       : "Motion/File expects four, t, a_x, a_y, a_z; files with one component belong "
+                         "to the entries File x, File y, File z. ") +
+                  "One line of headings without numbers may come first; put # before other text. Decimals have "
+                  "a point, not a comma.");
+        rows.emplace_back();
+        for (const std::string &word : line.words)
+          rows.back().push_back(number_of(text, line, word, rows.size() == 1));
+      }
+      return rows;
     }
 
     /** Returns true if the first line of a table has headings. */
@@ -253,71 +242,107 @@ namespace Voussoir
       return !lines.empty() && std::none_of(lines[0].words.begin(), lines[0].words.end(), is_number);
     }
 
-    MotionRecord read_table(const std::string &file, const std::vector<Line> &lines,
-                            unsigned int n_components)
+    MotionRecord read_table(const RecordText &text, const unsigned int n_channels, const double step)
     {
-      MotionRecord record;
-      record.components.resize(n_components);
-      std::vector<double>      times;
-      std::vector<std::size_t> numbers;
-      for (auto line = lines.begin() + has_headings(lines); line != lines.end(); ++line)
+      MotionRecord        record;
+      std::string         headings;
+      std::vector<Line>   lines = lines_of(text, headings);
+      std::vector<Column> columns;
+      const std::size_t   first = lines.empty() ? 0 : lines[0].number;
+      if (has_headings(lines))
       {
-        if (line->words.size() != n_components + 1)
-          fail(file, line->number,
-               std::to_string(line->words.size()) + " columns. " +
-                   (n_components == 1 ? "Expected two, t and a, or an AT2 file; a file with t, a_x, a_y, a_z "
-                                        "belongs to the entry Motion/File. "
-                                      : "Motion/File expects four, t, a_x, a_y, a_z; files with one "
-                                        "component belong to the entries File x, File y, File z. ") +
-                   "One line of headings without numbers may come first; put # before other text. Decimals "
-                   "have a point, not a comma.");
-        times.push_back(read_number(file, *line, line->words[0]));
-        numbers.push_back(line->number);
-        for (unsigned int c = 0; c < n_components; ++c)
-          record.components[c].push_back(read_number(file, *line, line->words[c + 1]));
+        columns = columns_of(text.lines[first]);
+        lines.erase(lines.begin());
+        if (lines.empty() || lines[0].words.size() != columns.size())
+          columns.clear();
       }
-      if (times.size() < 2)
-        throw InputError("The ground motion file '" + file + "' holds fewer than two times.");
-      record.start = times.front();
-      record.dt = equal_step(file, times, numbers);
+      const bool is_time_named = std::any_of(columns.begin(), columns.end(),
+                                             [](const Column &c) { return c.quantity == 't'; }),
+                 is_timed = !(step > 0. && (columns.empty() ? !lines.empty() && lines[0].words.size() == 1
+                                                            : !is_time_named));
+      const auto rows = rows_of(text, lines, n_channels == 0 ? 0 : n_channels + is_timed, n_channels);
+      if (rows.size() < 2)
+        throw InputError("The ground motion file '" + text.file + "' holds fewer than two times.");
+      check_columns(text, first, columns, is_timed);
+      for (const std::string other : {"velocity", "displacement"})
+        if (columns.empty() && lower_case(headings).find(other) != std::string::npos)
+          text.fail(first, "the headings name a " + other + ". Give accelerations, and name them.");
+      for (std::size_t c = 0, channel = 0; c < rows[0].size(); ++c)
+      {
+        const bool          is_time = columns.empty() ? is_timed && c == 0 : columns[c].quantity == 't';
+        std::vector<double> values;
+        for (const auto &row : rows)
+          values.push_back(row[c]);
+        if (is_time)
+        {
+          std::vector<std::size_t> numbers;
+          for (const Line &line : lines)
+            numbers.push_back(line.number);
+          record.start = values.front();
+          record.dt = equal_step(text, values, numbers);
+          continue;
+        }
+        record.channels.push_back(columns.empty() ? MotionChannel() : columns[c].channel);
+        if (columns.empty() && n_channels == 3)
+          record.channels.back().set_direction(std::string(1, "xyz"[channel++]));
+        record.channels.back().values = std::move(values);
+        if (!columns.empty() && record.unit.empty())
+          record.unit = columns[c].unit;
+      }
+      if (!is_timed)
+        record.dt = step;
+      if (record.unit.empty())
+        record.unit = unit_in(headings);
+      record.notes = "table";
+      if (columns.empty() && n_channels == 3)
+        record.notes += ", columns taken as t, a_x, a_y, a_z without headings";
       return record;
     }
   } // namespace
 
-  double MotionRecord::duration() const
+  MotionRecord read_motion_record(const std::string &file, const unsigned int n_channels, const double step)
   {
-    return dt * (components.at(0).size() - 1);
-  }
-
-  MotionRecord read_motion_record(const std::string &file, unsigned int n_components)
-  {
-    std::string             headings;
-    const std::vector<Line> lines = read_lines(file, headings);
-    const auto              header = find_at2_header(lines);
-    if (header == lines.end())
-    {
-      MotionRecord record = read_table(file, lines, n_components);
-      record.unit = unit_in(headings);
+    RecordText          text = read_record_text(file);
+    const RecordFormat *format = record_format_of(text);
+    if (format != nullptr)
+      text.format = std::string(format->name) + " (" + format->source + ")";
+    MotionRecord record = format == nullptr ? read_table(text, n_channels, step) : format->read(text);
+    if (step > 0. && std::abs(step - record.dt) > 1e-6 * record.dt)
+      text.fail(0, "the file states steps of " + number_text(record.dt) + " s, but Motion/File step is " +
+                       number_text(step) + " s. Set it to 0, or correct the file.");
+    if (format == nullptr)
       return record;
-    }
-    if (n_components != 1)
-      fail(file, header->number,
-           "an AT2 file has one component. Give it as File x, File y or File z, or "
-           "in Motion/Sequence as one of three files, for x, y, z.");
-    return read_at2(file, lines, header);
+    const std::size_t n = record.channels.size();
+    if (n_channels != 0 && n != n_channels)
+      text.fail(
+          0,
+          n == 1
+              ? "the file has one component. Give it as File x, File y or File z, or in Motion/Sequence as one "
+                "of three files, for x, y, z."
+              : "the file has " + std::to_string(n) +
+                    " channels. Give it as Motion/File, with Motion/Azimuths.");
+    std::size_t length = record.channels[0].values.size();
+    for (const MotionChannel &channel : record.channels)
+      length = std::min(length, channel.values.size());
+    for (MotionChannel &channel : record.channels)
+      channel.values.resize(length);
+    record.is_table = false;
+    record.notes = format->name + (record.notes.empty() ? "" : "; " + record.notes);
+    return record;
   }
 
   NumberTable read_number_table(const std::string &file)
   {
     NumberTable             table;
     std::string             headings;
-    const std::vector<Line> lines = read_lines(file, headings);
+    const RecordText        text = read_record_text(file);
+    const std::vector<Line> lines = lines_of(text, headings);
     for (auto line = lines.begin() + has_headings(lines); line != lines.end(); ++line)
     {
-      table.lines.push_back(line->number);
+      table.lines.push_back(line->number + 1);
       table.rows.emplace_back();
       for (const std::string &word : line->words)
-        table.rows.back().push_back(read_number(file, *line, word));
+        table.rows.back().push_back(number_of(text, *line, word, false));
     }
     table.unit = unit_in(headings);
     return table;

@@ -199,6 +199,29 @@ namespace Voussoir
            "the record is at rest.";
   }
 
+  void print_spectra(const GroundMotion &motion, const MotionParameters &parameters, std::ostream &out)
+  {
+    std::ostringstream table;
+    table << "Spectra [g], damping " << 100. * parameters.damping
+          << " %\nperiod [s]         x         y         z    RotD50   RotD100"
+          << (parameters.has_target() ? "  target x" : "") << '\n'
+          << std::fixed << std::setprecision(3);
+    const auto print = [&](const double value) { table << std::setw(10) << value / standard_gravity; };
+    for (const double period : {.05, .1, .2, .3, .5, .75, 1., 2., 3.})
+    {
+      table << std::setw(10) << period;
+      for (unsigned int d = 0; d < 3; ++d)
+        print(pseudo_acceleration_spectrum(motion.component(d), motion.dt, {period}, parameters.damping)[0]);
+      for (const double value :
+           rotated_response(motion.component(0), motion.component(1), motion.dt, period, parameters.damping))
+        print(value);
+      if (parameters.has_target())
+        print(std::abs(parameters.factor * parameters.scale[0]) * parameters.target(0, period));
+      table << '\n';
+    }
+    out << table.str();
+  }
+
   void print_report(const MotionReport &report, std::ostream &out)
   {
     std::ostringstream table;

@@ -46,7 +46,8 @@ namespace Voussoir
       return a;
     }
 
-    /** Returns the envelope of a record, relative to its largest value, but not below @p least [-]. */
+    /** Returns the envelope of a record, relative to its largest value, but not below @p least [-]. It rises from
+     * zero in the first half second and decays to zero in the last one, so that additions vanish at both ends. */
     Vector envelope_of(const Vector &a, const double dt, const double least)
     {
       constexpr double  window = 1.; // [s]
@@ -57,8 +58,12 @@ namespace Voussoir
       for (std::size_t k = 0; k < a.size(); ++k)
         envelope[k] = std::sqrt(sum[std::min(a.size(), k + half + 1)] - sum[k > half ? k - half : 0]);
       const double largest = *std::max_element(envelope.begin(), envelope.end());
-      for (double &value : envelope)
-        value = std::max(value / largest, least);
+      for (std::size_t k = 0; k < a.size(); ++k)
+      {
+        const double rise =
+            std::sin(M_PI / 2. * std::min(1., dt * std::min(k, a.size() - 1 - k) / (.5 * window)));
+        envelope[k] = std::max(envelope[k] / largest, least) * rise * rise;
+      }
       return envelope;
     }
 
@@ -211,7 +216,10 @@ namespace Voussoir
            << std::abs(factor) * before.peak_acceleration / standard_gravity << " g, now "
            << std::abs(factor) * after.peak_acceleration / standard_gravity << "; Arias intensity "
            << factor * factor * before.arias_intensity << " m/s, now "
-           << factor * factor * after.arias_intensity;
+           << factor * factor * after.arias_intensity << " m/s; duration D5-95 "
+           << before.significant_duration << " s, now " << after.significant_duration
+           << " s; peak displacement " << std::abs(factor) * before.peak_displacement << " m, now "
+           << std::abs(factor) * after.peak_displacement << " m";
       motion.notes.push_back(note.str());
       return result;
     }

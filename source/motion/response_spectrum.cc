@@ -104,6 +104,23 @@ namespace Voussoir
     return peaks;
   }
 
+  std::vector<double> Oscillator::response(const std::vector<double> &acceleration) const
+  {
+    std::vector<double> result;
+    double              u = 0., v = 0.;
+    for (std::size_t k = 0; k + 1 < acceleration.size(); ++k)
+      for (std::size_t r = 0; r < n_substeps; ++r)
+      {
+        const double increment = (acceleration[k + 1] - acceleration[k]) / n_substeps,
+                     before = acceleration[k] + r * increment, after = before + increment,
+                     u_next = a[0][0] * u + a[0][1] * v + start[0] * before + finish[0] * after;
+        v = a[1][0] * u + a[1][1] * v + start[1] * before + finish[1] * after;
+        u = u_next;
+        result.push_back(stiffness * u);
+      }
+    return result;
+  }
+
   std::vector<double> Oscillator::sensitivity(std::size_t substep, std::size_t n_samples) const
   {
     std::vector<double> derivative(n_samples, 0.);
@@ -133,6 +150,23 @@ namespace Voussoir
     for (const Oscillator::Peak &peak : Oscillator::peaks(oscillators, acceleration))
       spectrum.push_back(std::abs(peak.value));
     return spectrum;
+  }
+
+  std::array<double, 2> rotated_response(const std::vector<double> &x, const std::vector<double> &y,
+                                         const double dt, const double period, const double damping)
+  {
+    constexpr unsigned int    n_angles = 180;
+    const Oscillator          oscillator(period, damping, dt);
+    const std::vector<double> of_x = oscillator.response(x), of_y = oscillator.response(y);
+    std::vector<double>       largest(n_angles, 0.);
+    for (unsigned int i = 0; i < n_angles; ++i)
+    {
+      const double c = std::cos(M_PI * i / n_angles), s = std::sin(M_PI * i / n_angles);
+      for (std::size_t k = 0; k < of_x.size(); ++k)
+        largest[i] = std::max(largest[i], std::abs(c * of_x[k] + s * of_y[k]));
+    }
+    std::sort(largest.begin(), largest.end());
+    return {{.5 * (largest[n_angles / 2 - 1] + largest[n_angles / 2]), largest.back()}};
   }
 
   std::vector<double> logarithmic_periods(double first, double last, unsigned int n_per_decade)

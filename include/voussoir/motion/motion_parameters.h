@@ -41,11 +41,16 @@ namespace Voussoir
     std::string target_file;      ///< spectrum for artificial motions and records to be matched, or empty
 
     // Source = file. Paths are relative to the directory of the input file.
-    std::string                file;              ///< one file with t, a_x, a_y, a_z, or empty
-    std::array<std::string, 3> component_files;   ///< one file per component, with t, a or AT2, or empty
-    std::string                unit = "m/s^2";    ///< of the accelerations in tables
-    std::string                baseline = "none"; ///< or "linear", "quadratic": without_baseline()
-    bool                       match = false;     ///< matched_record() to the target spectrum
+    std::string                file;            ///< one file with t, a_x, a_y, a_z, or empty
+    std::array<std::string, 3> component_files; ///< one file per component, with t, a or AT2, or empty
+    std::string                unit = "m/s^2";  ///< of the accelerations in tables
+    double                     file_step = 0.;  ///< sampling interval of tables without times [s]; 0: none
+
+    /** Azimuth of the axis x and of channels or files, by name, clockwise from north [degrees]; see
+     * read_motion(). */
+    std::map<std::string, double> azimuths;
+    std::string                   baseline = "none"; ///< or "linear", "quadratic": without_baseline()
+    bool                          match = false;     ///< matched_record() to the target spectrum
 
     /** Files of records at the banks by "right HEIGHT" or "left HEIGHT"; see stations(). */
     std::map<std::string, std::string> abutments;

@@ -52,6 +52,10 @@ namespace Voussoir
    * Returns an empty string otherwise. */
   std::string end_warning(const MotionReport &report);
 
+  /** Prints response spectra of the components, RotD50 and RotD100 of x and y, and the target of x at nine periods.
+   * The arguments are those of report_motion(). */
+  void print_spectra(const GroundMotion &motion, const MotionParameters &parameters, std::ostream &out);
+
   /** Prints a table of the measures, and then the warnings. */
   void print_report(const MotionReport &report, std::ostream &out);
 } // namespace Voussoir

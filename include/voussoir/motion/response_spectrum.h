@@ -37,6 +37,9 @@ namespace Voussoir
     static std::vector<Peak> peaks(const std::vector<Oscillator> &oscillators,
                                    const std::vector<double>     &acceleration);
 
+    /** Returns w^2 u at all substeps [unit of the acceleration]. */
+    std::vector<double> response(const std::vector<double> &acceleration) const;
+
     /** Returns the derivatives of w^2 u at a substep with respect to the accelerations at @p n_samples
      * samples [-]: the time-reversed impulse response. The response w^2 u is the scalar product of the
      * derivatives and the record. */
@@ -59,6 +62,15 @@ namespace Voussoir
    * @param damping damping ratio [-] */
   std::vector<double> pseudo_acceleration_spectrum(const std::vector<double> &acceleration, double dt,
                                                    const std::vector<double> &periods, double damping);
+
+  /** Returns RotD50 and RotD100: the median and the maximum over the directions of a horizontal oscillator, in steps
+   * of 1 degree, of its largest w^2 |u| [unit of the acceleration] (Boore 2010, Bulletin of the Seismological
+   * Society of America 100).
+   * @param x, y samples of the two horizontal components, at intervals of @p dt [s]
+   * @param period natural period [s]
+   * @param damping damping ratio [-] */
+  std::array<double, 2> rotated_response(const std::vector<double> &x, const std::vector<double> &y,
+                                         double dt, double period, double damping);
 
   /** Returns periods from @p first to @p last, both included [s]. Successive periods have a constant ratio,
    * with at least @p n_per_decade periods per decade. */
