@@ -428,7 +428,7 @@ namespace
     Scene   scene;
     scene.add_parameters(prm);
     const UsualRanges &usual = prm.usual_ranges();
-    expect(usual.size() == 80, std::to_string(usual.size()) + " usual ranges");
+    expect(usual.size() == 81, std::to_string(usual.size()) + " usual ranges");
     for (const char *name : {"Mesh/Arch210/Rock/Depth", "Concrete/Density", "Joints/Friction",
                              "Joints/Keys/Friction", "Loads/Silt/Density", "Limits/Slip"})
       expect(usual.count(name) == 1, std::string("the usual range of ") + name);

@@ -323,7 +323,14 @@ namespace Voussoir
           "Explicit step", scene.explicit_step,
           "Length of the steps of the scheme explicit [s]; they are shortened to divide a time step, at whose end results are recorded. "
           "-1: 0.95 of the critical step.",
-          XX, scene.initial_velocity,
+          {-1., .01}, Patterns::Double(-1.));
+      prm.add_parameter(
+          "Mass scaling", scene.mass_scaling,
+          "Step of the scheme explicit that mass added to the smallest elements of a mesh from a file allows [s]. The log "
+          "tells the mass, which is an error of the model. 0: none.",
+          {0., .005}, Patterns::Double(0.));
+      prm.add_parameter(
+          "Initial velocity", scene.initial_velocity,
           "Velocities of blocks at the start, relative to the base, as \"BLOCK: vx vy vz; BLOCK: ...\" in "
           "m/s. BLOCK is all, or a name such as monolith 2 or monolith 2 lift 1.",
           Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
