@@ -19,10 +19,9 @@ namespace Voussoir
     /** File of a motion. */
     struct Source
     {
-      std::string  name, path;
-      int          direction; ///< 0, 1, 2: of File x, y, z; -1: File
-      MotionRecord record;
-
+      std::string              name, path;
+      int                      direction; ///< 0, 1, 2: of File x, y, z; -1: File
+      MotionRecord             record;
       std::vector<std::string> used = {}; ///< names in "Motion/Azimuths"
     };
 

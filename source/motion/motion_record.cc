@@ -112,8 +112,7 @@ namespace Voussoir
       return step;
     }
 
-    /** Heading of a column. Quantity: t, a, v (velocity), d (displacement), or ? (unknown). Unknown units keep their
-     * parenthesis, as in "(mg)". */
+    /** Heading of a column. Quantity: t, a, v (velocity), d (displacement), or ? (unknown). Unknown unit: "(mg)". */
     struct Column
     {
       std::string   text, unit;
@@ -207,9 +206,8 @@ namespace Voussoir
       for (const Column &column : columns)
       {
         const std::string name = "the column '" + column.text + "' ";
-        if (column.unit[0] == '(' || column.unit[0] == '[')
-          text.fail(line, name + "is not understood: unit '" + column.unit +
-                              "' is unknown. Use g, gal, cm/s^2 or m/s^2.");
+        if (column.unit.find_first_of("([") == 0)
+          text.fail(line, "unit '" + column.unit + "' is unknown. Use g, gal, cm/s^2 or m/s^2.");
         if (column.quantity == 'v' || column.quantity == 'd')
           text.fail(line, name + "is a " + (column.quantity == 'v' ? "velocity" : "displacement") +
                               ", not an acceleration. Give accelerations, or remove the column.");
@@ -346,8 +344,7 @@ namespace Voussoir
     for (const MotionChannel &channel : record.channels)
       length = std::min(length, channel.values.size());
     if (length < 2)
-      text.fail(0, record.channels.empty() ? "the file has no channel of acceleration. Give one that has."
-                                           : "a channel has fewer than 2 values. Give a longer record.");
+      text.fail(0, "there is no channel of acceleration with 2 values or more. Give a file with one.");
     if (step > 0. && std::abs(step - record.dt) > 1e-6 * record.dt)
       text.fail(0, "the file states steps of " + number_text(record.dt) + " s, but Motion/File step is " +
                        number_text(step) + " s. Set it to 0, or correct the file.");

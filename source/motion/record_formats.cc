@@ -23,16 +23,12 @@ namespace Voussoir
     /** Returns the unit_name() of a unit of acceleration. Throws InputError for other units, by name. */
     std::string unit_of(const RecordText &text, const std::size_t line, const std::string &unit)
     {
-      const std::string name = unit_name(lower_case(trimmed(unit)), "acceleration");
+      std::string word = trimmed(unit);
+      word.resize(std::min(word.size(), word.find_first_of(" .,;(\t"))); // G. FILTER POINTS: ...
+      const std::string name = unit_name(lower_case(word), "acceleration");
       if (name.empty())
-        text.fail(line, "the unit '" + trimmed(unit) + "' is no unit of acceleration." + advice);
+        text.fail(line, "the unit '" + word + "' is no unit of acceleration." + advice);
       return name;
-    }
-
-    /** Returns the text before the first one of @p ends. */
-    std::string until(const std::string &text, const char *ends)
-    {
-      return text.substr(0, text.find_first_of(ends));
     }
 
     /** Throws InputError if one of the first @p end lines names velocities, displacements or spectra. */
@@ -189,7 +185,7 @@ namespace Voussoir
                   azimuth == 400.   ? "up"
                   : azimuth == 401. ? "down"
                                     : number_text(azimuth),
-                  dt, until(unit, "(,"), record);
+                  dt, unit, record);
         record.notes = integers[0] == 1. ? "V1, not corrected" : "V" + number_text(integers[0]);
       }
       if (record.channels.empty())
@@ -209,7 +205,7 @@ namespace Voussoir
         const std::size_t at = text.find("chan ", begin, line); // Chan  1:  90 Deg
         const std::string after = at < line ? text.lines[at] + ": ? " : ":? ";
         add_block(text, line, words_of(after.substr(after.find(':') + 1))[0],
-                  leading_number(words.substr(words.find(" at") + 3)), until(unit, " .,("), record);
+                  leading_number(words.substr(words.find(" at") + 3)), unit, record);
       }
       record.notes = "V2, corrected";
       return record;
@@ -224,7 +220,7 @@ namespace Voussoir
       std::string direction;
       for (std::size_t k = 0; k < line; ++k)
         if (const auto units = lower_case(text.lines[k]).find("units of "); units != std::string::npos)
-          record.unit = unit_of(text, k, until(trimmed(text.lines[k].substr(units + 9)), ".,; \t"));
+          record.unit = unit_of(text, k, text.lines[k].substr(units + 9));
         else if (const auto comma = text.lines[k].rfind(','); comma != std::string::npos)
           direction = text.lines[k].substr(comma + 1); // EL CENTRO ARRAY 6, 230
       std::vector<double> numbers;                     // "4000 .01 NPTS, DT" or "NPTS= 4000, DT= .0050SEC"
