@@ -94,6 +94,15 @@ def explicit():
         expect(off < OFF[name] and error < 1e-10, f"{name}: openings off by {off}, energy balance {error}")
 
 
+def thrown():
+    """The energy balance of the explicit scheme closes with an initial velocity and static loads."""
+    write_scene()
+    runs("scene.prm", "--output", "thrown", *settings("Motion/Source=none", "Motion/Duration=0.1", "Dynamics/Scheme=explicit", "Damping/Reference frequency=2",
+                                                      "Output/Figures=false", "Dynamics/Initial velocity=all: 0.05 0 -0.05"))
+    error = summary("thrown")["energy_balance_error"]
+    expect(error < 1e-10, f"energy balance {error}")
+
+
 def scaling():
     """Mass scaling makes the step of an own mesh with slivers longer by half, says so in a warning, and changes the openings little; it is for own meshes only."""
     write_scene()
@@ -139,4 +148,4 @@ def pulse():
 
 
 if __name__ == "__main__":
-    run_cases(foundations, entries, modes, explicit, scaling, pulse)
+    run_cases(foundations, entries, modes, explicit, thrown, scaling, pulse)

@@ -125,6 +125,7 @@ def explicit():
     refuse([*scheme, "--validate"], (("Damping/Model=Rayleigh", ("stiffness-proportional", "uniform")),))
     refuse([*uniform, "--validate"], (
         ("Foundation/Model=massless", *rock, "Mesh/Arch210/Base joint=true", ("Base joints on massless rock", "trapezoidal")),
+        ("Foundation/Model=rock", *rock, "Mesh/Arch210/Base joint=true", ("Base joints on rock", "trapezoidal")),
         ("Foundation/Model=rock", *rock, "Damping/Model=Rayleigh", "Damping/Mass coefficient=0.6", "Damping/Stiffness coefficient=0",
          ("mass-proportional", "uniform")),
         ("Reservoir/Model=acoustic", ("acoustic water",)),

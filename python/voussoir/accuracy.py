@@ -39,7 +39,7 @@ from .error_bars import UNITS, bar_text, bars_of_choices, beside, headlines, rel
 from .errors import ComputationError, InputError
 from .program import call, entries_of, message_of, program_key, set_options, start
 from .results import Results, read_summary
-from .study_file import is_file_entry
+from .study_file import AS_IT_IS, is_file_entry
 from .tables import read_table
 from .zone_tension import zone_means
 
@@ -364,10 +364,7 @@ def prepare(options, wish):
     motion = (directory / "motion.csv").resolve()
     np.savetxt(motion, part, delimiter=",", header="t,a_x,a_y,a_z", comments="# ")
     common = dict(entry.split("=", 1) for entry in options.set)
-    common.update({"Motion/Source": "file", "Motion/File": motion, "Motion/File x": "", "Motion/File y": "", "Motion/File z": "",
-                   "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1,
-                   "Motion/Scale z": 1, "Motion/Sequence": "", "Motion/Rest": 0, "Motion/Target spectrum": "",
-                   "Motion/Baseline": "none", "Motion/Match": "false", "Output/Figures": "false", "Output/Solution interval": 0})
+    common.update({**AS_IT_IS, "Motion/File": motion, "Output/Figures": "false", "Output/Solution interval": 0})
     choices = choices_of(entries, Path(options.scene).parent)
     if entries["Reservoir/Model"] == "acoustic" and (depth := water_depth(options.scene, options.set)) > 0:
         choices += water_choices(entries, depth, lambda size: water_mass_factor(options.scene, {**common, WATER_SIZE: size}))

@@ -22,13 +22,9 @@ from .command import write_whole
 from .errors import VoussoirError
 from .needs_verdicts import measures_of
 from .program import call, find_program, message_of, program_key, set_options
-from .study_file import with_paths
+from .study_file import AS_IT_IS, with_paths
 
 VERSION = b"needs 1"  # of what this module reads of a run: other runs are made again
-# Settings of the part of the motion: it has the unit, the scale and the corrections already.
-PART = {"Motion/Source": "file", "Motion/File x": "", "Motion/File y": "", "Motion/File z": "", "Motion/Unit": "m/s^2", "Motion/Duration": -1,
-        "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1, "Motion/Scale z": 1, "Motion/Sequence": "", "Motion/Rest": 0,
-        "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false"}
 
 
 def slug(name: str) -> str:
@@ -104,7 +100,7 @@ class Runs:
         own = {entry: value for entry, value in changes.items() if entry.startswith("Motion/") and entry not in scales}
         given = {entry: value for entry, value in self.common.items() if entry.startswith("Motion/")}
         rest = {entry: value for entry, value in changes.items() if not entry.startswith("Motion/")}
-        return {**self.common, **PART, "Motion/File": self.motion({**given, **own}), **scales, **rest}
+        return {**self.common, **AS_IT_IS, "Motion/File": self.motion({**given, **own}), **scales, **rest}
 
     def run(self, name: str, changes: Mapping[str, Any], predicted: float = 0., whole: bool = False, limited: bool = True) -> Dict[str, Any]:
         """Runs the scene with changes, or reads the run. Returns measures_of() with "changes", or "failure" and its reason."""

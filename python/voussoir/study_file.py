@@ -214,18 +214,28 @@ def path_of(value, study):
     return path
 
 
+# Settings of a motion in a file with unit, scale and corrections of a scene.
+AS_IT_IS = {"Motion/Source": "file", "Motion/File x": "", "Motion/File y": "", "Motion/File z": "", "Motion/File step": 0, "Motion/Azimuths": "",
+            "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1, "Motion/Scale z": 1,
+            "Motion/Sequence": "", "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false"}
+
+
 def is_file_entry(entry):
     """Mesh/File, Motion/File, Motion/File x..., the target spectrum, the tables of arcs, temperatures and added masses, and the rock wedges."""
-    return entry.split("/")[-1].split(" ")[0] == "File" or entry in (
+    return entry.split("/")[-1] in ("File", "File x", "File y", "File z") or entry in (
         "Mesh/Arcs/Table", "Motion/Target spectrum", "Loads/Temperature/Table", "Reservoir/Table", "Limits/Wedges")
 
 
 def with_paths(entry, text, directory):
     """The value of an entry with absolute paths of its files, and these paths. In Motion/Sequence, numbers are
-    seeds; in Motion/Abutments, a bank and a height precede the files."""
+    seeds; in Motion/Abutments, a bank and a height precede the files; in Loads/Force history each third part is a file."""
     if is_file_entry(entry) and text:
         path = str((directory / text).resolve())
         return path, [path]
+    if entry == "Loads/Force history":
+        parts = [part.strip() for part in text.split(";")]
+        parts[2::3] = [str((directory / part).resolve()) for part in parts[2::3]]
+        return "; ".join(parts), parts[2::3]
     if entry not in ("Motion/Sequence", "Motion/Abutments"):
         return text, []
     words = [word.strip() for word in re.split("([;,]|(?:right|left) [^:;]*:)" if entry == "Motion/Abutments" else "([;,])", text)]

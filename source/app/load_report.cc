@@ -57,7 +57,7 @@ namespace Voussoir
       }
       else if (acts_between_blocks(load))
         continue;
-      else if (!usual && norm(f) == 0.)
+      else if (!usual && norm(f) == 0. && load.name != "force history")
         log.line("warning: the load %s is zero: it does not reach the dam. Check its entries in Loads.",
                  load.name.c_str());
       else if (!usual || load.factor != 1.)

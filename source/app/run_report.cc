@@ -224,8 +224,10 @@ namespace Voussoir
     report_motion_and_warnings(run, log);
     report_motion_notes(run, log);
     if (dam.facts.critical_step > 0.)
-      log.line("Critical  step of an explicit scheme for the dam %.4g ms, from the elements at %s",
-               1e3 * dam.facts.critical_step, dam.facts.critical_place.c_str());
+      log.line("Critical  step of an explicit scheme for the dam %.4g ms%s, from the elements at %s",
+               1e3 * dam.facts.critical_step,
+               scene.is_explicit() ? "" : " (without rock and Rayleigh damping)",
+               dam.facts.critical_place.c_str());
     if (run.n_steps > 0 && scene.is_explicit())
       log.line("Explicit  %u steps of %.4g ms in a time step", scene.n_explicit,
                1e3 * run.motion.dt / scene.n_explicit);
@@ -237,7 +239,8 @@ namespace Voussoir
         log.line("%-9s %s", title, row.c_str());
       log.line("Unknowns  %u of the monoliths, %zu of the joints", 3 * n_nodes,
                3 * dam.structure.pairs.size());
-      log.line("Steps     %u of %g s%s", run.n_steps, run.motion.dt, dam.foundation->about_steps().c_str());
+      log.line("Steps     %u of %g s%s", run.n_steps, run.motion.dt,
+               scene.is_explicit() ? "" : dam.foundation->about_steps().c_str());
       log.line("Memory    %s", in_words(memory_need(scene, scene.hex_mesh())).c_str());
     }
   }

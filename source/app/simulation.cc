@@ -69,6 +69,8 @@ namespace Voussoir
   /** Throws InputError if the ranks have different command lines or input files. */
   void Simulation::check_ranks() const
   {
+    if (scene.is_explicit() && Ranks::size() > 1)
+      throw InputError("\"Dynamics/Scheme\" = explicit runs in one process. Use threads (OMP_NUM_THREADS).");
     std::string text = scene_text + directory + (options.resume ? " resume" : "") +
                        (options.validate ? " validate" : "") + (options.overwrite ? " overwrite" : "");
     for (const auto &[name, value] : checkpoint.provenance)
@@ -95,7 +97,7 @@ namespace Voussoir
     state.dam = std::make_unique<Dam>(scene);
     FoundationParameters &foundation = scene.foundation;
     if (foundation.substeps > 0 || foundation.coupling != "auto" || scene.impact_rule != "mean-force" ||
-        state.n_steps == 0)
+        state.n_steps == 0 || scene.is_explicit())
       return;
     foundation.substeps =
         std::clamp(std::ceil(state.motion.dt / state.dam->foundation->largest_step()), 1., 100.);

@@ -243,6 +243,10 @@ namespace Voussoir
       throw InputError(
           "Base joints on massless rock require \"Dynamics/Scheme\" = trapezoidal, \"Dynamics/Impact\" = mean-force and "
           "\"Contact/Write problems\" = false. Set these entries, or \"Joints/Overrides\" = base: tied.");
+    if (foundation->uses_rock() && scene.is_explicit())
+      throw InputError(
+          "Base joints on rock require \"Dynamics/Scheme\" = trapezoidal, because the footings below them would "
+          "need steps of about 0.02 ms. Set this entry, or leave out the base joints.");
     if (foundation->uses_rock()) // the joints lie between dam and footings
       return;
     model->free_base_joints(sides);

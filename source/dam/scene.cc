@@ -432,7 +432,7 @@ namespace Voussoir
     const auto refused = [&](const ModelChoice &choice) // by check()
     {
       const bool moves = !motion.abutments.empty(); // requires massless rock
-      return (moves && choice.entries.count("Foundation/Model") > 0) ||
+      return ((moves || !initial_velocity.empty()) && choice.entries.count("Foundation/Model") > 0) ||
              (hexes.water && reservoir.is_meshed() && choice.entries.count("Reservoir/Water level") > 0) ||
              (reservoir.is_acoustic() && choice.name == "twice the time step");
     };
@@ -509,7 +509,7 @@ namespace Voussoir
     const auto refuse = [](const std::string &why) {
       throw InputError("\"Dynamics/Scheme\" = explicit " + why + ", or \"Dynamics/Scheme\" to trapezoidal.");
     };
-    if (foundation.model == "rock" && damping.law().mass > 0. && motion.source != "none")
+    if (foundation.model == "rock" && damping.law().mass > 0. && (motion.source != "none" || moves_alone()))
       refuse("on rock has no mass-proportional damping, which would brake the motion of the rock. Set "
              "\"Damping/Model\" to uniform");
     if (reservoir.is_meshed())
@@ -571,7 +571,7 @@ namespace Voussoir
       throw InputError(
           "\"Damping/Model\" = uniform on massless rock requires \"Dynamics/Impact\" = mean-force and "
           "\"Contact/Write problems\" = false. Set these entries, or \"Damping/Model\" = Rayleigh.");
-    if (foundation.model == "rock" && foundation.substeps > 1 && !foundation.is_subcycled())
+    if (foundation.model == "rock" && foundation.substeps > 1 && !foundation.is_subcycled() && !is_explicit())
       throw InputError("\"Foundation/Coupling\" = partition with \"Foundation/Substeps\" above 1 was removed "
                        "in version 0.4.0. Set \"Foundation/Coupling\" to auto or mean traction, or "
                        "\"Foundation/Substeps\" to 1.");
@@ -593,7 +593,7 @@ namespace Voussoir
     joints.check();
     loads.check();
     static_stages(statics.stages);
-    motion.check();
+    motion.check(moves_alone());
     output.check();
   }
 } // namespace Voussoir

@@ -41,24 +41,25 @@ namespace Voussoir
 
     void check(const Structure &structure)
     {
-      if (Ranks::size() > 1)
-        throw InputError(
-            "\"Dynamics/Scheme\" = explicit runs in one process. Use threads (OMP_NUM_THREADS).");
-      ensure(!(structure.damping.stiffness > 0.) && structure.dashpots.empty(),
-             "The leapfrog rule has no damping by the stiffness and no dashpots.");
+      ensure(Ranks::size() == 1 && !(structure.damping.stiffness > 0.) && structure.dashpots.empty(),
+             "The leapfrog rule has one process, no damping by the stiffness and no dashpots.");
       for (const Body &body : structure.bodies)
         ensure(body.reacting.empty(), "The leapfrog rule has no reactions of water.");
     }
   } // namespace
 
+  double mass_of(const Structure &structure, const std::vector<Matrix3> &without, const std::size_t node)
+  {
+    const auto trace = [&](const std::vector<Matrix3> &mass)
+    { return mass.empty() ? 0. : mass[node][0] + mass[node][4] + mass[node][8]; };
+    return (trace(structure.mass) - trace(without) - trace(structure.added_mass)) / 3.;
+  }
+
   CriticalStep critical_step(const Structure &structure, const std::vector<Matrix3> &without)
   {
     std::vector<double> mass; // without the added mass: the frequency is an upper bound
-    const auto          trace = [](const Matrix3 &m) { return m[0] + m[4] + m[8]; };
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)
-      mass.push_back((trace(structure.mass[i]) - (without.empty() ? 0. : trace(without[i])) -
-                      (structure.added_mass.empty() ? 0. : trace(structure.added_mass[i]))) /
-                     3.);
+      mass.push_back(mass_of(structure, without, i));
     const auto multiply = [&](const double *x, double *y)
     {
       Unknowns Ku;
@@ -89,6 +90,18 @@ namespace Voussoir
       memory_begin.push_back(at);
       at += law->n_memory();
     }
+  }
+
+  /** The velocity of the start is that of the middle of a step before it, so its strain energy is u(-1) K u(0) / 2. */
+  void Leapfrog::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
+                       const Unknowns &reference, const Unknowns &memory, const Unknowns &elastic_force)
+  {
+    Integrator::start(u, v, force, load, reference, memory, elastic_force);
+    double change = 0.;
+    for (std::size_t k = 0; k < v.size(); ++k)
+      change -= .5 * h * v[k] * (now.Ku[k] - (elastic_force.empty() ? 0. : elastic_force[k]));
+    now.energy.strain += change;
+    first.strain += change;
   }
 
   double Leapfrog::memory() const

@@ -40,7 +40,7 @@ namespace Voussoir
       scaled.mass = structure.mass;
       for (std::size_t i = 0; i < sums.size(); ++i)
       {
-        const double mass = structure.mass[i][0] - (without.empty() ? 0. : without[i][0]);
+        const double mass = mass_of(structure, without, i);
         result[i] = std::max(0., sums[i] / limit - mass);
         for (unsigned int c = 0; c < 3; ++c)
           scaled.mass[i][4 * c] += result[i];

@@ -194,7 +194,10 @@ namespace Voussoir
         return supported ? supported->energies() : std::vector<std::pair<std::string, double>>();
       }
 
-      double strain_at_start() const override { return supported ? supported->strain_at_start() : 0.; }
+      double strain_at_start() const override
+      {
+        return supported ? supported->strain_at_start() : strain_of_start;
+      }
 
       double balance_error() const override { return supported ? supported->balance_error() : 0.; }
 

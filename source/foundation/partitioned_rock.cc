@@ -98,15 +98,6 @@ namespace Voussoir
     return result;
   }
 
-  std::string CommonStepRock::about_steps() const
-  {
-    std::ostringstream text;
-    text.precision(4);
-    text << ", each of " << grid.substeps
-         << " steps that dam and rock take together; critical time step of the rock " << dt_critical << " s";
-    return text.str();
-  }
-
   void CommonStepRock::add_forces(Unknowns &load) const
   {
     for (std::size_t i = 0; i < at_base.size(); ++i)

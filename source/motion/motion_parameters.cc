@@ -290,11 +290,12 @@ namespace Voussoir
     }
   } // namespace
 
-  void MotionParameters::check() const
+  void MotionParameters::check(const bool runs_at_rest) const
   {
     require(time_step > 0. && time_step <= 1e3, "Time step", time_step,
             "it must be positive, at most 1000 s");
-    if (!duration_is_automatic() || source != "file") // otherwise the records determine it
+    if ((source != "none" || runs_at_rest) &&
+        (!duration_is_automatic() || source != "file")) // otherwise the records determine it
     {
       require(length() >= time_step, "Duration", length(),
               "it must be at least one Time step, or -1: automatic");

@@ -37,7 +37,7 @@ namespace Voussoir
       {
         double impulse = 0., square = 0.; // [N s]; of the pattern, over the nodal masses [1/kg]
         for (std::size_t k = 1; k < motion.acceleration.size(); ++k)
-          impulse += motion.dt * std::abs(force.at(k * motion.dt));
+          impulse += motion.dt * std::abs(force.at(k * motion.dt) - force.value.front());
         for (std::size_t k = 0; k < force.pattern.size(); ++k)
           square += force.pattern[k] * force.pattern[k] / dam.structure.mass[k / 3][4 * (k % 3)];
         sum += impulse * std::sqrt(square / mass_of(dam.structure));

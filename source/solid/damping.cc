@@ -166,25 +166,25 @@ namespace Voussoir
                                  Unknowns &rhs) const
   {
     const int n = relaxes() ? rhs.size() : 0;
-#pragma omp      parallel for schedule(static)
+#pragma omp parallel for schedule(static)
     for (int k = 0; k < n; ++k)
       rhs[k] += 2. * (1. - modulus) * (Ku[k] - memory.Ku_static[k]);
     for (std::size_t l = 0; l < c.size(); ++l)
     {
-           const double factor = modulus * c[l] * (1. + StepOfMechanism(dt, tau[l]).kept);
+      const double factor = modulus * c[l] * (1. + StepOfMechanism(dt, tau[l]).kept);
 #pragma omp parallel for schedule(static)
       for (int k = 0; k < n; ++k)
         rhs[k] -= factor * memory.Kd[l][k];
     }
   }
 
-       double Damping::advance(const double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
-                               const Unknowns &Ku, DampingMemory &memory) const
-       {
-         if (!relaxes())
+  double Damping::advance(const double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
+                          const Unknowns &Ku, DampingMemory &memory) const
+  {
+    if (!relaxes())
       return 0.;
     const auto advance_values = [&](const std::size_t begin, const std::size_t end)
-         {
+    {
       double dissipated = 0.;
       for (std::size_t k = begin; k < end; ++k)
         memory.mean[k] = (modulus - 1.) * (.5 * (u_old[k] + u[k]) - memory.u_static[k]);
@@ -205,54 +205,52 @@ namespace Voussoir
       }
       return std::array<double, 1>{{dissipated}};
     };
-         return sum_of_ranges<std::array<double, 1>>(u.size(), advance_values)[0];
-       }
+    return sum_of_ranges<std::array<double, 1>>(u.size(), advance_values)[0];
+  }
 
-       Damping::Energies Damping::advance_leapfrog(const double dt, const Unknowns &u_old, const Unknowns &Ku_old,
-                                                   const Unknowns &u, const Unknowns &Ku,
-                                                   DampingMemory &memory) const
-       {
-         if (!relaxes())
+  Damping::Energies Damping::advance_leapfrog(const double dt, const Unknowns &u_old, const Unknowns &Ku_old,
+                                              const Unknowns &u, const Unknowns &Ku,
+                                              DampingMemory &memory) const
+  {
+    if (!relaxes())
       return {0., 0.};
     const auto advance_values = [&](const std::size_t begin, const std::size_t end)
-         {
+    {
       double        stored = 0., dissipated = 0.;
       const double  rest = .5 * (1. - modulus);
       const double *u_rest = memory.u_static.data(), *Ku_rest = memory.Ku_static.data(), *old = u_old.data(),
                    *K_old = Ku_old.data(), *now = u.data(), *K_now = Ku.data();
-     #pragma omp simd reduction(+ : stored)
-      for (std::size_t k = begin; k < end; ++k)
-        stored -= rest * (old[k] - u_rest[k]) * (K_now[k] - Ku_rest[k]);
+      _Pragma("omp simd reduction(+ : stored)") for (std::size_t k = begin; k < end; ++k) stored -=
+          rest * (old[k] - u_rest[k]) * (K_now[k] - Ku_rest[k]);
       for (std::size_t l = 0; l < c.size(); ++l)
       {
-             const double r = dt / tau[l], kept = std::exp(-r), added = -std::expm1(-r) / r,
-                          share = .5 * modulus * c[l];
-             double *d_l = memory.d[l].data(), *Kd_l = memory.Kd[l].data();
-#pragma omp simd reduction(+ : stored, dissipated)
-        for (std::size_t k = begin; k < end; ++k)
+        const double r = dt / tau[l], kept = std::exp(-r), added = -std::expm1(-r) / r,
+                     share = .5 * modulus * c[l];
+        double *d_l = memory.d[l].data(), *Kd_l = memory.Kd[l].data();
+        _Pragma("omp simd reduction(+ : stored, dissipated)") for (std::size_t k = begin; k < end; ++k)
         {
-               const double d_old = d_l[k], Kd_old = Kd_l[k];
-               const double d = kept * d_old + added * (now[k] - old[k]),
-                            Kd = kept * Kd_old + added * (K_now[k] - K_old[k]);
-               const double lost = share * r * d * (Kd + Kd_old);
-               dissipated += lost;
-               stored += share / added * d_old * Kd - lost;
-               d_l[k] = d;
-               Kd_l[k] = Kd;
+          const double d_old = d_l[k], Kd_old = Kd_l[k];
+          const double d = kept * d_old + added * (now[k] - old[k]),
+                       Kd = kept * Kd_old + added * (K_now[k] - K_old[k]);
+          const double lost = share * r * d * (Kd + Kd_old);
+          dissipated += lost;
+          stored += share / added * d_old * Kd - lost;
+          d_l[k] = d;
+          Kd_l[k] = Kd;
         }
-           }
-           return std::array<double, 2>{{stored, dissipated}};
+      }
+      return std::array<double, 2>{{stored, dissipated}};
     };
-         const auto sums = sum_of_ranges<std::array<double, 2>>(u.size(), advance_values);
-         return {sums[0], sums[1]};
-       }
+    const auto sums = sum_of_ranges<std::array<double, 2>>(u.size(), advance_values);
+    return {sums[0], sums[1]};
+  }
 
-       double Damping::more_energy(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku) const
-       {
-         if (!relaxes())
+  double Damping::more_energy(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku) const
+  {
+    if (!relaxes())
       return 0.;
     const auto energy = [&](const std::size_t begin, const std::size_t end)
-         {
+    {
       double sum = 0.;
       for (std::size_t k = begin; k < end; ++k)
       {
@@ -262,29 +260,29 @@ namespace Voussoir
       }
       return std::array<double, 1>{{sum}};
     };
-         return sum_of_ranges<std::array<double, 1>>(u.size(), energy)[0];
-       }
+    return sum_of_ranges<std::array<double, 1>>(u.size(), energy)[0];
+  }
 
-       void Damping::relaxed(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku,
-                             const std::size_t begin, const std::size_t end, double *w, double *Kw) const
-       {
-         const std::size_t n = end - begin;
-         std::copy_n(u.begin() + begin, n, w);
-         std::copy_n(Ku.begin() + begin, n, Kw);
-         if (!relaxes())
+  void Damping::relaxed(const DampingMemory &memory, const Unknowns &u, const Unknowns &Ku,
+                        const std::size_t begin, const std::size_t end, double *w, double *Kw) const
+  {
+    const std::size_t n = end - begin;
+    std::copy_n(u.begin() + begin, n, w);
+    std::copy_n(Ku.begin() + begin, n, Kw);
+    if (!relaxes())
       return;
     const double  kept = modulus, rest = 1. - modulus;
-         const double *u_rest = memory.u_static.data() + begin, *Ku_rest = memory.Ku_static.data() + begin;
-     #pragma omp simd
+    const double *u_rest = memory.u_static.data() + begin, *Ku_rest = memory.Ku_static.data() + begin;
+#pragma omp simd
     for (std::size_t k = 0; k < n; ++k)
     {
-           w[k] = kept * w[k] + rest * u_rest[k];
-           Kw[k] = kept * Kw[k] + rest * Ku_rest[k];
+      w[k] = kept * w[k] + rest * u_rest[k];
+      Kw[k] = kept * Kw[k] + rest * Ku_rest[k];
     }
     for (std::size_t l = 0; l < c.size(); ++l)
     {
-           const double  share = modulus * c[l];
-           const double *d = memory.d[l].data() + begin, *Kd = memory.Kd[l].data() + begin;
+      const double  share = modulus * c[l];
+      const double *d = memory.d[l].data() + begin, *Kd = memory.Kd[l].data() + begin;
 #pragma omp simd
       for (std::size_t k = 0; k < n; ++k)
       {

@@ -16,6 +16,9 @@ namespace Voussoir
     unsigned int node = 0;    ///< free node that moves most in the highest mode
   };
 
+  /** Returns the mass of a node without that of the water and @p without, which may be empty: a mean of the directions [kg]. */
+  double mass_of(const Structure &structure, const std::vector<Matrix3> &without, std::size_t node);
+
   /** Returns the critical step of a structure for its damping (Damping: moduli). The damping of the mass does not count.
    * @param without masses of nodes that do not count, such as those of the rock [kg] */
   CriticalStep critical_step(const Structure &structure, const std::vector<Matrix3> &without);
@@ -40,11 +43,14 @@ namespace Voussoir
      * @param n_steps number of steps h in dt, below the critical step
      * @param neighbour takes the steps h, too; or nullptr
      *
-     * Throws InputError on several processes. The structure must have no stiffness term of the damping, dashpots or
-     * reactions of water. */
+     * There must be one process, and the structure must have no stiffness term of the damping, dashpots or reactions of
+     * water. */
     Leapfrog(const Structure &structure, const JointLaws &laws, double dt, unsigned int n_steps,
              StepNeighbour *neighbour = nullptr);
 
+    void          start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
+                        const Unknowns &reference, const Unknowns &memory = {},
+                        const Unknowns &elastic_force = {}) override;
     ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}}) override;
     const std::vector<PairState> &pair_states() const override { return states; }
     SystemTimes                   times() const override { return spent; }

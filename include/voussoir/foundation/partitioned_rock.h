@@ -50,7 +50,6 @@ namespace Voussoir
   public:
     using PartitionedRock::PartitionedRock;
 
-    std::string    about_steps() const override;
     StepNeighbour *step_neighbour(Structure &) override { return this; }
     void           advance(Unknowns &) override {} ///< StepNeighbour::advance() does
     void           update_from_dam(const DynamicState &state) override { finish_step(state.time); }
