@@ -115,7 +115,7 @@ def units():
         runs(*asked("--set", f"Motion/Unit={spelled}"))
         expect(Path("m.csv").read_bytes() == expected, f"a record in {spelled}")
     refused(asked("--set", "Motion/Unit=m/s"), "Motion/Unit", "m/s^2, m/s2, cm/s^2, cm/s2, mm/s^2, mm/s2, gal, Gal, g, ft/s^2, ft/s2")
-    table_of("t [s], a [ft/s2]\n", 2.)
+    table_of("# t [s], a [ft/s2]\n", 2.)
     refused(asked("--set", "Motion/Unit=m/s^2"), "headings with the unit ft/s^2", "Set Motion/Unit = ft/s^2")
     table_of("", 380.)  # in cm/s2
     expect("the peak acceleration of the motion is 38.7 g" in runs(*asked()), "a record in cm/s2 that is taken in m/s2")

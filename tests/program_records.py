@@ -117,6 +117,7 @@ def turned(azimuth_x, *channels):
             for axis in (azimuth_x, azimuth_x - 90)]
 
 
+FILTERED = at2("NPTS= 64, DT= .0100 SEC", unit="UNITS OF G. FILTER POINTS: HP=0.1 Hz LP=50.0 Hz")
 THREE = (EW, NS, UP)  # x to the east: y is north, z up
 EAST = {"Azimuths": "x: 90"}
 AT2 = {"File x": "f"}
@@ -163,6 +164,17 @@ GOOD = {
     "hand example": (columns("t,EW,NS\n", EW, NS), {"File": "f", "Unit": "gal", "Azimuths": "x: 120; EW: 90; NS: 0"},
                      ([a * math.sqrt(.75) - b / 2 for a, b in zip(EW, NS)], [a / 2 + b * math.sqrt(.75) for a, b in zip(EW, NS)], 0),
                      ("EW (0.866 x, 0.5 y); NS (-0.5 x, 0.866 y)",), 1e-4),
+    "at2 with filters": (FILTERED, AT2, ([v * G / 9.81 for v in NS], 0, 0), ("unit g",), 1e-4),
+    "at2 with a point": (at2("NPTS= 64, DT= .0100 SEC", unit="UNITS OF G."), AT2, ([v * G / 9.81 for v in NS], 0, 0), ("unit g",), 1e-4),
+    "afad with a blank line": (afad(("U-D", "E-W", "N-S")).replace("N-S\n", "N-S\n\n"), {"File": "f", **EAST}, THREE, ("UD (1 z); EW (1 x)",), 1e-5),
+    "cosmos without format": (cosmos_channel(NS, 90).replace("(10I8)", ""), AT2, (NS, 0, 0), ("COSMOS",), 1e-5),
+    "heading with comment": (columns("t,a_x,a_y,a_z,, # as given, (filtered)\n", *THREE), {"File": "f", "Unit": "gal"}, THREE, ("z (1 z)",), 1e-4),
+    "other heading": (columns("Seismogram\n", *THREE), {"File": "f", "Unit": "gal"}, THREE, ("headings not understood", "taken as t, a_x"), 1e-4),
+    "slashes": (columns("t,N/S,E/W,Acc. (U/D)\n", NS, EW, UP), {"File": "f", "Unit": "gal", **EAST}, THREE, ("NS (1 y); EW (1 x); UD (1 z)",), 1e-4),
+    "E, N, U": (columns("t/s,E,N,U\n", *THREE), {"File": "f", "Unit": "gal", **EAST}, THREE, ("E (1 x); N (1 y); up (1 z)",), 1e-4),
+    "axis first": (columns("t,Z Acc (gal),X acceleration,Y accel.\n", UP, EW, NS), {"File": "f", "Unit": "gal"}, THREE, ("Z (1 z); X (1 x)",), 1e-4),
+    "whole numbers": ("".join(f"{k},0,0,{-(k % 2)}\n" for k in range(64)), {"File": "f", "Unit": "gal", "Time step": "1"},
+                      (0, 0, [-(k % 2) for k in range(64)]), (), 1e-9),
 }
 
 
@@ -232,8 +244,32 @@ BAD = {
     "not perpendicular": (columns("t,EW,NS\n", EW, NS), {**TWO, "Azimuths": "x: 0; EW: 80"}, ("perpendicular",)),
     "unknown name": (columns("t,EW,NS\n", EW, NS), {**TWO, "Azimuths": "x: 0; HNE: 80"}, ("HNE", "EW, NS")),
     "no x": (columns("t,EW,NS\n", EW, NS), {**TWO, "Azimuths": "EW: 80"}, ("azimuth of the axis x",)),
+    "knet empty": (knet([], duration=.001).replace("Memo.", "Memo. "), AT2, ("line 17", "states 0 values", "must be whole")),
+    "esm half": (esm(NS, n=64.5), AT2, ("states 64.5 values", "must be whole")),
+    "cosmos pressure": (cosmos_channel(NS, 90, quantity="pore pressure", units="kPa (60)"), AT2, ("no channel of acceleration",)),
+    "smc one value": (smc(NS, n=1), AT2, ("states 1 values",)),
+    "afad directions": (afad().replace("         E-W", "        Long"), TWO, ("line 12", "three directions")),
+    "horizontal for z": (columns("t,EW\n", EW), {"File z": "f", "Unit": "gal", **EAST}, ("'EW'", "horizontal", "other direction")),
+    "azimuths of axes": (columns("t,a_x,a_y,a_z\n", *THREE), TWO, ("'x'", "Name the columns by direction, as in NS, EW, or remove Azimuths")),
+    "azimuths without names": (rows(NS, "%.4f", 1), {"File": "f", "File step": ".01", "Azimuths": "x: 0; f: 9; g: 8"}, ("'g'", "channels are f.")),
+    "fewer headings": (columns("t,a_z,a_x\n", *THREE), {"File": "f"}, ("line 1", "3 headings, 4 columns")),
+    "unknown unit": (columns("t,Acc. X (mg),Acc. Y (mg),Acc. Z (mg)\n", *THREE), {"File": "f"}, ("unit '(mg)' is unknown",)),
+    "percent": (columns("t,Acc. [%g]\n", NS), AT2, ("unit '[%g]' is unknown",)),
+    "u alone": (columns("t,u\n", NS), AT2, ("'u'", "displacement")),
     "no direction": (columns("t,a1,a2\n", EW, NS), TWO, ("unknown",)),
 }
+
+
+def sequence():
+    """Azimuths by file hold for all parts of a sequence and all stations."""
+    write("scene.prm", SCENE.format(.01))
+    for name, values in (("f", NS), ("g", EW)):
+        write(name, rows(values, "%.4f", 1))
+    settings = {"Sequence": "f; g", "File step": ".01", "Unit": "gal", "Azimuths": "x: 0; f: 0; g: 90"}
+    shown = runs("motion", "scene.prm", "--output", "m.csv", *entries(settings))
+    expect("(1 x)" in shown and "(-1 y)" in shown, shown)
+    settings["Azimuths"] += "; h: 9"
+    refused(["motion", "scene.prm", "--output", "none.csv", *entries(settings)], "'h'", "channels are f, g.")
 
 
 def bad():
@@ -247,4 +283,4 @@ def bad():
 
 
 if __name__ == "__main__":
-    run_cases(good, bad)
+    run_cases(good, sequence, bad)

@@ -200,6 +200,8 @@ namespace Voussoir
       motion.acceleration.resize(parameters.n_steps() + 1, {{0., 0., 0.}});
       return motion;
     }
+    if (parameters.source == "file")
+      check_azimuths(parameters, scene_directory);
     MotionParameters with_target = parameters;
     with_target.read_target(scene_directory);
     motion = make_sequence(with_target, scene_directory);

@@ -19,12 +19,13 @@ namespace Voussoir
     /** File of a motion. */
     struct Source
     {
-      std::string  name, path;
-      int          direction; ///< 0, 1, 2: of File x, y, z; -1: File
-      MotionRecord record;
+      std::string              name, path;
+      int                      direction; ///< 0, 1, 2: of File x, y, z; -1: File
+      MotionRecord             record;
+      std::vector<std::string> used = {}; ///< names in "Motion/Azimuths"
     };
 
-    /** Sets the parts of a channel in x, y and z without "Motion/Azimuths". Throws InputError if its direction
+    /** Sets the parts of a channel in x, y and z, before "Motion/Azimuths" turns it. Throws InputError if its direction
      * does not fit. */
     void place(const Source &source, MotionChannel &channel)
     {
@@ -52,9 +53,15 @@ namespace Voussoir
       if (channel.axis == '?' && source.direction == 2)
         channel.axis = 'z';
       if (channel.axis != 'h' && channel.axis != 'z')
-        throw InputError("Motion/Azimuths: the channel '" + channel.name + "' of '" + source.name +
-                         "' has no azimuth. Add it by its name or file, as in \"" + source.name +
-                         ": 90\", or remove Azimuths.");
+        throw InputError(
+            "Motion/Azimuths: the channel '" + channel.name + "' of '" + source.name + "' has no azimuth. " +
+            (channel.axis == '?' ? "Add it by its name or file, as in \"" + source.name + ": 90\","
+                                 : "Name the columns by direction, as in NS, EW,") +
+            " or remove Azimuths.");
+      if (source.direction >= 0)
+        place(source, channel);
+      if (channel.name.empty())
+        channel.name = source.name;
       const double angle = (parameters.azimuths.at("x") - channel.azimuth) * M_PI / 180.;
       // y is x turned by 90 degrees counterclockwise seen from above
       channel.parts = {{std::cos(angle), std::sin(angle), 0.}};
@@ -67,24 +74,19 @@ namespace Voussoir
      * perpendicular, and one vertical channel. */
     void turn_all(const MotionParameters &parameters, std::vector<Source> &sources)
     {
-      std::map<std::string, double> unused = parameters.azimuths;
-      std::vector<double>           azimuths;
-      std::string                   names;
-      unsigned int                  n_vertical = 0;
-      unused.erase("x");
+      std::vector<double> azimuths;
+      std::string         names;
+      unsigned int        n_vertical = 0;
       for (Source &source : sources)
         for (MotionChannel &channel : source.record.channels)
         {
-          unused.erase(turn(parameters, source, channel));
+          source.used.push_back(turn(parameters, source, channel));
           names += (names.empty() ? "" : ", ") + channel.name;
           if (channel.axis == 'z')
             ++n_vertical;
           else
             azimuths.push_back(channel.azimuth);
         }
-      if (!unused.empty())
-        throw InputError("Motion/Azimuths: there is no channel or file '" + unused.begin()->first +
-                         "'. The channels are " + names + ". Correct the name.");
       if (azimuths.size() > 2 || n_vertical > 1 ||
           (azimuths.size() == 2 && std::abs(std::cos((azimuths[0] - azimuths[1]) * M_PI / 180.)) > .03))
         throw InputError("Motion/Azimuths: the channels are " + names +
@@ -222,6 +224,23 @@ namespace Voussoir
       }
     }
     return motion;
+  }
+
+  void check_azimuths(const MotionParameters &parameters, const std::string &scene_directory)
+  {
+    std::map<std::string, double> unused = parameters.azimuths;
+    std::vector<MotionParameters> motions = parameters.parts();
+    std::string                   names;
+    unused.erase("x");
+    for (const StationParameters &station : parameters.stations())
+      motions.push_back(station.record);
+    for (auto motion = motions.begin(); !unused.empty() && motion != motions.end(); ++motion)
+      for (const Source &source : read_sources(*motion, scene_directory))
+        for (std::size_t c = 0; c < source.used.size(); ++c)
+          unused.erase(source.used[c]), names += (names.empty() ? "" : ", ") + source.record.channels[c].name;
+    if (!unused.empty())
+      throw InputError("Motion/Azimuths: there is no channel or file '" + unused.begin()->first +
+                       "'. The channels are " + names + ". Correct the name.");
   }
 
   std::string unit_warning(const MotionParameters &parameters, const std::string &scene_directory)

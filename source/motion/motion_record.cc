@@ -57,9 +57,10 @@ namespace Voussoir
           headings += text.lines[k] + "\n";
         const auto is_digit = [&](const std::size_t at)
         { return at < content.size() && std::isdigit(static_cast<unsigned char>(content[at])); };
-        std::size_t n_commas = 0; // between digits, as in 0,01
+        std::size_t n_commas = 0; // between numbers, as in 0,01 and 0,-1
         for (std::size_t at = 1; at < content.size(); ++at)
-          n_commas += content[at] == ',' && is_digit(at - 1) && is_digit(at + 1);
+          n_commas += content[at] == ',' && is_digit(at - 1) &&
+                      is_digit(at + 1 + (content[at + 1] == '-' || content[at + 1] == '+'));
         if (n_commas > 0 && line.words.size() > n_commas + 1 && content.find('.') == std::string::npos)
           text.fail(
               k, std::to_string(line.words.size()) +
@@ -111,7 +112,7 @@ namespace Voussoir
       return step;
     }
 
-    /** Heading of a column. Quantity: t, a, v (velocity), d (displacement), or ? (unknown). */
+    /** Heading of a column. Quantity: t, a, v (velocity), d (displacement), or ? (unknown). Unknown unit: "(mg)". */
     struct Column
     {
       std::string   text, unit;
@@ -122,6 +123,7 @@ namespace Voussoir
     /** Returns the meaning of a heading such as "a_x [cm/s2]", "Acc. N-S (g)", EW or "Time (s)". */
     Column column_of(const std::string &heading)
     {
+      const std::string keys = "acceleration accel acc a velocity vel v displacement disp d u time t ";
       Column            column{trimmed(heading), "", '?', {}};
       const std::string text = lower_case(column.text) + " ";
       std::string       name;
@@ -131,13 +133,19 @@ namespace Voussoir
         const std::string part = text.substr(begin, end - begin);
         const std::size_t slash = std::min(part.find('/'), part.size());
         std::size_t       n_name = part.size(); // of these characters
-        if (text[end] == ')' || text[end] == ']' || slash < part.size() || part == "gal")
+        MotionChannel     direction;            // N/S is none per second
+        direction.set_direction(part);
+        const bool in_parentheses = text[end] == ')' || text[end] == ']';
+        if (slash < part.size() ? direction.axis == '?' : in_parentheses || part == "gal")
           for (const char *dimension : {"acceleration", "velocity", "length", "time"})
             for (const std::size_t first : {std::size_t(0), slash + 1}) // cm/s2, ax/gal
               if (n_name == part.size() && first <= slash + (slash < part.size()))
                 if (const std::string unit = unit_name(part.substr(first), dimension); !unit.empty())
                   n_name = first, column.unit = unit,
                   column.quantity = dimension[0] == 'l' ? 'd' : dimension[0];
+        if (in_parentheses && !part.empty() && n_name == part.size() && direction.axis == '?' &&
+            (" " + keys).find(" " + part + " ") == std::string::npos)
+          column.unit = (text[end] == ')' ? "(" : "[") + column.text.substr(begin, part.size()) + text[end];
         for (const unsigned char c : column.text.substr(begin, n_name))
           if (std::isalnum(c))
             name += c;
@@ -148,14 +156,16 @@ namespace Voussoir
       char quantity = '?';
       if (whole.axis != '?' && (name.size() > 1 || std::string("xyznew").find(lower) != std::string::npos))
         quantity = 'a', column.channel = whole;
-      std::istringstream keys("acceleration accel acc a velocity vel v displacement disp d u time t");
-      for (std::string key; quantity == '?' && keys >> key; rest = {})
-        if (lower.compare(0, key.size(), key) == 0)
+      std::istringstream words(keys);
+      for (std::string key; quantity == '?' && words >> key; rest = {})
+        if (const bool begins = lower.compare(0, key.size(), key) == 0;
+            begins || (key.size() > 2 && lower.size() > key.size() &&
+                       lower.compare(lower.size() - key.size(), key.size(), key) == 0)) // X acceleration
         {
-          rest.set_direction(name.substr(key.size()));
+          rest.set_direction(begins ? name.substr(key.size()) : name.substr(0, name.size() - key.size()));
           if (rest.axis == 'h' && rest.name.size() == 1 && std::isdigit(rest.name[0] & 0x7f))
             rest.axis = '?'; // a1: a number, not an azimuth
-          if (rest.axis != '?' || key.size() > 2 || lower == key)
+          if (rest.axis != '?' || (begins && key.size() > 2) || lower == key)
             quantity = key[0] == 'u' ? 'd' : key[0], column.channel = rest;
         }
       if (column.quantity == '?')
@@ -175,6 +185,14 @@ namespace Voussoir
           columns.back() = column_of(columns.back().text + " " + cell);
         else if (separator != ' ' || !trimmed(cell).empty())
           columns.push_back(column_of(cell));
+      while (!columns.empty() && columns.back().text.empty())
+        columns.pop_back();
+      const bool is_north_known =
+          std::any_of(columns.begin(), columns.end(), [](const Column &c) { return c.channel.axis == 'h'; });
+      for (Column &column : columns)
+        if (const std::string cell = lower_case(column.text) + " ";
+            is_north_known && cell[0] == 'u' && cell.find_first_of(" ([") == 1) // E, N, U
+          column = column_of("up" + column.text.substr(1));
       return columns;
     }
 
@@ -188,6 +206,8 @@ namespace Voussoir
       for (const Column &column : columns)
       {
         const std::string name = "the column '" + column.text + "' ";
+        if (column.unit.find_first_of("([") == 0)
+          text.fail(line, "unit '" + column.unit + "' is unknown. Use g, gal, cm/s^2 or m/s^2.");
         if (column.quantity == 'v' || column.quantity == 'd')
           text.fail(line, name + "is a " + (column.quantity == 'v' ? "velocity" : "displacement") +
                               ", not an acceleration. Give accelerations, or remove the column.");
@@ -242,22 +262,36 @@ namespace Voussoir
       return !lines.empty() && std::none_of(lines[0].words.begin(), lines[0].words.end(), is_number);
     }
 
+    /** Returns the columns that the first line names, and removes it from @p lines. Without headings, or if no
+     * word is known, there are none. Throws InputError if their number differs from that of the numbers. */
+    std::vector<Column> take_headings(const RecordText &text, std::vector<Line> &lines, std::string &notes)
+    {
+      if (!has_headings(lines))
+        return {};
+      const std::size_t         first = lines[0].number;
+      const std::vector<Column> columns =
+          columns_of(text.lines[first].substr(0, text.lines[first].find('#')));
+      lines.erase(lines.begin());
+      if (lines.empty() || lines[0].words.size() == columns.size())
+        return columns;
+      if (std::any_of(columns.begin(), columns.end(), [](const Column &c) { return c.quantity != '?'; }))
+        text.fail(first, std::to_string(columns.size()) + " headings, " +
+                             std::to_string(lines[0].words.size()) +
+                             " columns. Give each column one heading, and put # before other text.");
+      notes += ", headings not understood";
+      return {};
+    }
+
     MotionRecord read_table(const RecordText &text, const unsigned int n_channels, const double step)
     {
-      MotionRecord        record;
-      std::string         headings;
-      std::vector<Line>   lines = lines_of(text, headings);
-      std::vector<Column> columns;
-      const std::size_t   first = lines.empty() ? 0 : lines[0].number;
-      if (has_headings(lines))
-      {
-        columns = columns_of(text.lines[first]);
-        lines.erase(lines.begin());
-        if (lines.empty() || lines[0].words.size() != columns.size())
-          columns.clear();
-      }
-      const bool is_time_named = std::any_of(columns.begin(), columns.end(),
-                                             [](const Column &c) { return c.quantity == 't'; }),
+      MotionRecord      record;
+      std::string       headings;
+      std::vector<Line> lines = lines_of(text, headings);
+      const std::size_t first = lines.empty() ? 0 : lines[0].number;
+      record.notes = "table";
+      const std::vector<Column> columns = take_headings(text, lines, record.notes);
+      const bool                is_time_named = std::any_of(columns.begin(), columns.end(),
+                                                            [](const Column &c) { return c.quantity == 't'; }),
                  is_timed = !(step > 0. && (columns.empty() ? !lines.empty() && lines[0].words.size() == 1
                                                             : !is_time_named));
       const auto rows = rows_of(text, lines, n_channels == 0 ? 0 : n_channels + is_timed, n_channels);
@@ -293,7 +327,6 @@ namespace Voussoir
         record.dt = step;
       if (record.unit.empty())
         record.unit = unit_in(headings);
-      record.notes = "table";
       if (columns.empty() && n_channels == 3)
         record.notes += ", columns taken as t, a_x, a_y, a_z without headings";
       return record;
@@ -307,6 +340,11 @@ namespace Voussoir
     if (format != nullptr)
       text.format = std::string(format->name) + " (" + format->source + ")";
     MotionRecord record = format == nullptr ? read_table(text, n_channels, step) : format->read(text);
+    std::size_t  length = record.channels.empty() ? 0 : record.channels[0].values.size();
+    for (const MotionChannel &channel : record.channels)
+      length = std::min(length, channel.values.size());
+    if (length < 2)
+      text.fail(0, "there is no channel of acceleration with 2 values or more. Give a file with one.");
     if (step > 0. && std::abs(step - record.dt) > 1e-6 * record.dt)
       text.fail(0, "the file states steps of " + number_text(record.dt) + " s, but Motion/File step is " +
                        number_text(step) + " s. Set it to 0, or correct the file.");
@@ -321,9 +359,6 @@ namespace Voussoir
                 "of three files, for x, y, z."
               : "the file has " + std::to_string(n) +
                     " channels. Give it as Motion/File, with Motion/Azimuths.");
-    std::size_t length = record.channels[0].values.size();
-    for (const MotionChannel &channel : record.channels)
-      length = std::min(length, channel.values.size());
     for (MotionChannel &channel : record.channels)
       channel.values.resize(length);
     record.is_table = false;

@@ -23,9 +23,11 @@ namespace Voussoir
     /** Returns the unit_name() of a unit of acceleration. Throws InputError for other units, by name. */
     std::string unit_of(const RecordText &text, const std::size_t line, const std::string &unit)
     {
-      const std::string name = unit_name(lower_case(trimmed(unit)), "acceleration");
+      std::string word = trimmed(unit);
+      word.resize(std::min(word.size(), word.find_first_of(" .,;(\t"))); // G. FILTER POINTS: ...
+      const std::string name = unit_name(lower_case(word), "acceleration");
       if (name.empty())
-        text.fail(line, "the unit '" + trimmed(unit) + "' is no unit of acceleration." + advice);
+        text.fail(line, "the unit '" + word + "' is no unit of acceleration." + advice);
       return name;
     }
 
@@ -40,7 +42,7 @@ namespace Voussoir
     /** Returns the width of a number in a format of Fortran: 10 for (8f10.6), 8(1pe10.4e1) and (10I8); or 0. */
     std::size_t fortran_width(const std::string &line)
     {
-      for (std::size_t k = line.rfind('('); k + 1 < line.size(); ++k)
+      for (std::size_t k = std::min(line.rfind('('), line.size()); k + 1 < line.size(); ++k)
         if (std::string("fFeEiIgG").find(line[k]) != std::string::npos && std::isdigit(line[k + 1] & 0x7f))
           return leading_number(line.substr(k + 1));
       return 0;
@@ -61,7 +63,7 @@ namespace Voussoir
       record.unit = unit_of(text, text.find("scale factor"), scale.substr(open + 1, close - open - 1));
       std::size_t         line = std::min<std::size_t>(text.find("memo."), 16) + 1;
       std::vector<double> values =
-          text.numbers(line, std::lround(text.positive("duration time(s)") * frequency), 0, true);
+          text.numbers(line, std::round(text.positive("duration time(s)") * frequency), 0, true);
       double mean = 0.;
       for (const double value : values)
         mean += value / values.size();
@@ -106,19 +108,17 @@ namespace Voussoir
       record.notes = "not corrected";
       std::size_t              line = text.find("sampling interval") + 1;
       std::vector<std::string> names, words;
-      for (; line < text.lines.size(); ++line, names = words)
+      for (; line < text.lines.size(); ++line, names = words.empty() ? names : words)
         if (words = words_of(text.lines[line]);
             !words.empty() && std::all_of(words.begin(), words.end(), is_number))
           break;
-      if (names.size() != 3)
-        names = {"N-S", "E-W", "U-D"};
+      names.resize(3);
+      for (const std::string &name : names)
+        if (add_channel(record, name, {}); record.channels.back().axis == '?')
+          text.fail(line, "expected three directions above the numbers, such as N-S E-W U-D. Correct them.");
       const std::vector<double> all = text.numbers(line, 3 * text.positive("number of data"), 12, true);
-      for (std::size_t c = 0; c < 3; ++c)
-      {
-        add_channel(record, names[c], {});
-        for (std::size_t k = c; k < all.size(); k += 3)
-          record.channels[c].values.push_back(all[k]);
-      }
+      for (std::size_t k = 0; k < all.size(); ++k)
+        record.channels[k % 3].values.push_back(all[k]);
       return record;
     }
 
@@ -128,11 +128,9 @@ namespace Voussoir
       check_quantity(text, 1);
       std::size_t               line = 11;
       const std::vector<double> integers = text.numbers(line, 48, 10), reals = text.numbers(line, 50, 15);
-      if (!(reals[1] > 0. && reals[1] < 1e5 && integers[15] >= 0. && integers[16] >= 2.))
-        text.fail(
-            12,
-            "expected the numbers of comments and values as integers 16 and 17, and the sampling rate as real "
-            "number 2. Download the file again.");
+      if (!(reals[1] > 0. && reals[1] < 1e5 && integers[15] >= 0. && integers[15] < 1e8))
+        text.fail(12, "expected the number of comments as integer 16, and the sampling rate as real "
+                      "number 2. Download the file again.");
       record.dt = 1. / reals[1];
       record.unit = "cm/s^2";
       record.notes = text.find("uncorrected", 0, 1) == 0 ? "not corrected" : "corrected";
@@ -151,7 +149,7 @@ namespace Voussoir
     {
       const std::string name = unit_of(text, line, unit), header = text.lines[line];
       const double      n = leading_number(header);
-      if (!(dt > 0. && n >= 2. && n < 1e8) || (record.dt > 0. && (dt != record.dt || name != record.unit)))
+      if (!(dt > 0.) || (record.dt > 0. && (dt != record.dt || name != record.unit)))
         text.fail(line, "the channel has " + number_text(n) + " values, steps of " + number_text(dt) +
                             " s, unit " + name + ". Step and unit must be valid and equal in all channels.");
       record.dt = dt;
@@ -187,7 +185,7 @@ namespace Voussoir
                   azimuth == 400.   ? "up"
                   : azimuth == 401. ? "down"
                                     : number_text(azimuth),
-                  dt, unit.substr(0, unit.find_first_of("(,")), record);
+                  dt, unit, record);
         record.notes = integers[0] == 1. ? "V1, not corrected" : "V" + number_text(integers[0]);
       }
       if (record.channels.empty())
@@ -207,8 +205,7 @@ namespace Voussoir
         const std::size_t at = text.find("chan ", begin, line); // Chan  1:  90 Deg
         const std::string after = at < line ? text.lines[at] + ": ? " : ":? ";
         add_block(text, line, words_of(after.substr(after.find(':') + 1))[0],
-                  leading_number(words.substr(words.find(" at") + 3)),
-                  unit.substr(0, unit.find_first_of(" .,(")), record);
+                  leading_number(words.substr(words.find(" at") + 3)), unit, record);
       }
       record.notes = "V2, corrected";
       return record;
@@ -230,7 +227,7 @@ namespace Voussoir
       for (const std::string &word : words_of(text.lines[line]))
         if (const double number = leading_number(word); std::isfinite(number))
           numbers.push_back(number);
-      if (numbers.size() < 2 || !(numbers[0] >= 2. && numbers[0] < 1e8) || !(numbers[1] > 0.))
+      if (numbers.size() < 2 || !(numbers[1] > 0.))
         text.fail(line, "expected the number of points NPTS and the time step DT, both positive.");
       record.dt = numbers[1];
       add_channel(record, direction, text.numbers(++line, numbers[0], 15, true));

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/motion/record_text.h>
 
 #include <algorithm>
@@ -76,11 +77,14 @@ namespace Voussoir
     return number;
   }
 
-  std::vector<double> RecordText::numbers(std::size_t &line, const std::size_t n_numbers,
-                                          const std::size_t width, const bool to_end) const
+  std::vector<double> RecordText::numbers(std::size_t &line, const double stated, const std::size_t width,
+                                          const bool to_end) const
   {
     std::vector<double> result;
-    const std::size_t   before = line - 1;
+    const std::size_t   before = line - 1, n_numbers = stated >= 2. && stated <= 1e8 ? stated : 0.;
+    if (n_numbers == 0 || n_numbers != stated)
+      fail(before, "the header states " + number_text(stated) +
+                       " values, but their number must be whole, from 2 to 1e8. Correct the header.");
     for (; line < lines.size() && (to_end || result.size() < n_numbers); ++line)
     {
       std::vector<std::string> words = words_of(lines[line]);
@@ -97,7 +101,7 @@ namespace Voussoir
                          " of " + std::to_string(n_numbers) +
                          "). Download the file again, or correct the line.");
     }
-    if (n_numbers > 0 && result.size() != n_numbers)
+    if (result.size() != n_numbers)
       fail(before, "the header states " + std::to_string(n_numbers) + " values, but there are " +
                        std::to_string(result.size()) + ". Download the file again, or correct the header.");
     return result;

@@ -30,6 +30,9 @@ namespace Voussoir
   /** Returns the times in the files of section "Motion". Throws InputError as read_motion(). */
   RecordTimes record_times(const MotionParameters &parameters, const std::string &scene_directory);
 
+  /** Throws InputError if a name in "Motion/Azimuths" is that of no channel or file, in all parts and stations. */
+  void check_azimuths(const MotionParameters &parameters, const std::string &scene_directory);
+
   /** Returns a warning that the tables or the target spectrum may be in g: all values of the records, or the
    * peak acceleration of the target spectrum, are below 1 m/s^2, and no heading states a unit. Returns an empty string otherwise, or if a file cannot be read. Intended for input files without
    * the entry "Motion/Unit". */

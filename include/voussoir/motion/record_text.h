@@ -31,12 +31,12 @@ namespace Voussoir
     /** Returns the number after @p key. Throws InputError unless it is positive. */
     double positive(const std::string &key) const;
 
-    /** Reads the numbers of successive lines, @p n_numbers (0: any), to the end of the file if @p to_end.
+    /** Reads the numbers of successive lines, @p stated by the header, to the end of the file if @p to_end.
      * @param line first line; receives the first line that is not read
      * @param width columns of a number, for numbers without blanks between them; 0: they have blanks
      *
-     * Throws InputError for other text and for another number of values. */
-    std::vector<double> numbers(std::size_t &line, std::size_t n_numbers, std::size_t width = 0,
+     * Throws InputError for other text, for another number of values, and unless @p stated is whole, from 2 to 1e8. */
+    std::vector<double> numbers(std::size_t &line, double stated, std::size_t width = 0,
                                 bool to_end = false) const;
   };
 
