@@ -248,8 +248,8 @@ namespace
       for (Matrix3 &block : body.stiffness.value)
         for (double &x : block)
           x = static_cast<float>(x);
-    Leapfrog        ours(structure, laws, 1e-3, 100);
-    Explicit        theirs(structure, 1e-5);
+    Leapfrog ours(structure, laws, 1e-3, 100);
+    Explicit theirs(structure, 1e-5);
     ours.start(zero, zero, none, zero, none);
     for (unsigned int i = 0; i < 100; ++i)
     {

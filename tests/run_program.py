@@ -483,7 +483,7 @@ def motions():
 
 PARTS = {"history.csv": ["time", "crest_x", "crest_y", "crest_z", "base_acceleration_x", "base_acceleration_y",
                          "base_acceleration_z", "foot_x", "foot_y", "foot_z"] + [
-                             f"{point}_acceleration_{c}" for point in ("crest", "foot") for c in "xyz"],
+                             f"{point}_acceleration_{c}" for point in ("crest", "foot") for c in "xyz"] + [f"foot_velocity_{c}" for c in "xyz"],
          "joints.csv": ["joint", "s", "opening_upstream", "opening_downstream", "slip_upstream", "slip_downstream",
                         "time_of_max_opening"],
          "joint_history.csv": ["time"] + [f"{q}_{j}" for j in (1, 2) for q in (
