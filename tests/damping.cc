@@ -244,12 +244,8 @@ namespace
     structure.damping = law; // the explicit scheme of the program has the same steps as that of this file
     const JointLaws laws = make_laws(structure, "FJA", 0.);
     const Unknowns  none(3 * structure.pairs.size(), 0.), zero(3 * structure.n_nodes(), 0.);
-    for (Body &body : structure.bodies) // the leapfrog rule has the stiffness in single precision
-      for (Matrix3 &block : body.stiffness.value)
-        for (double &x : block)
-          x = static_cast<float>(x);
-    Leapfrog ours(structure, laws, 1e-3, 100);
-    Explicit theirs(structure, 1e-5);
+    Leapfrog        ours(structure, laws, 1e-3, 100);
+    Explicit        theirs(structure, 1e-5);
     ours.start(zero, zero, none, zero, none);
     for (unsigned int i = 0; i < 100; ++i)
     {

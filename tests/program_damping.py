@@ -133,7 +133,7 @@ def pulse():
                                      "Motion/File=pulse.csv", "Motion/Unit=m/s2", "Motion/Baseline=none", "Output/Figures=false")]
     setup = runs(*common, "--validate")
     of_dam, of_rock = (factor * float(re.search(text + r" (\S+) m?s", setup)[1]) for factor, text in (
-        (.001, "step of an explicit scheme for the dam"), (1., "critical time step of the rock")))
+        (.001, "step of an explicit scheme for the dam"), (1., "critical time step of the rock is")))
     critical = min(of_dam, of_rock)
     refused([*common, "--validate", *settings(f"Dynamics/Explicit step={1.01 * critical:.8g}")], "above the critical step", "of the rock" if of_rock < of_dam else "elements at")
     sample = round(3 * .99 * critical, 9)

@@ -204,14 +204,14 @@ def second_order():
 
 
 def joints():
-    """A joint that ends above the base, and one across which the nodes of both sides do not coincide."""
+    """A joint that ends above the base, so that a monolith hangs in it, and one across which the nodes of both sides do not coincide."""
     n_through, n_up = CELLS[1:]
     nodes, hexes, quads = meshes.arch_block((1, 2, 3), n_through, n_up)
     first = min(i for i, (m, _) in enumerate(hexes) if m == 2)
     half = [(1 if m == 2 and (i - first) % n_up == 0 else m, c) for i, (m, c) in enumerate(hexes)]
     meshes.write("half.msh", nodes, half, quads)
-    refused([scene("half", "half.msh", Joints={"Model": "FJA"})], "half.msh", "monolith 2", '"base"', "Extend")
-    refused([scene("half", "half.msh", Joints={"Model": "FJA"}), "--validate"], "monolith 2", '"base"')
+    warned = voussoir(scene("half", "half.msh", Joints={"Model": "FJA"}), "--validate").stdout
+    expect(any("warning" in line and "monolith 2" in line for line in warned.splitlines()), warned)  # only the joint holds it
     runs(scene("half", "half.msh", Joints={"Model": "tied"}, Statics={"Self-weight": "monolithic"}), "--validate")
 
     nodes, hexes, quads = meshes.arch_block(*CELLS)

@@ -83,7 +83,7 @@ namespace Voussoir
   {
     check(structure);
     if (structure.damping.relaxes())
-      single = std::make_unique<SingleStiffness>(structure);
+      packed = std::make_unique<PackedStiffness>(structure);
     std::size_t at = 0;
     for (const JointLaw *law : laws.of_pair)
     {
@@ -107,7 +107,7 @@ namespace Voussoir
   double Leapfrog::memory() const
   {
     double bytes =
-        14. * sizeof(double) * now.u.size() + (single ? single->memory() : 0.); // vectors of the state
+        14. * sizeof(double) * now.u.size() + (packed ? packed->memory() : 0.); // vectors of the state
     for (const Body &body : structure.bodies)
       bytes += 10. * sizeof(double) * body.stiffness.value.size();
     return bytes;
@@ -368,7 +368,7 @@ namespace Voussoir
         kinetic += .5 * dot(v, structure.mass[i] * v);
         if (!structure.added_mass.empty())
           water += .5 * dot(v, structure.added_mass[i] * v);
-        if (const DampingMemory &rest = now.relaxation; single) // K in single precision acts on u - u_static
+        if (const DampingMemory &rest = now.relaxation; packed) // K acts on u - u_static
         {
           const Vector3 from = before - get(rest.u_static, i), f = get(rest.Ku_static, i);
           strain += .5 * (dot(from, get(Ku, i) - f) + dot(sum_of(from, get(u, i)), f));
@@ -415,8 +415,8 @@ namespace Voussoir
     for (int k = 0; k < static_cast<int>(u.size()); ++k)
       u[k] = now.u[k] + h * next[k];
     Stopwatch clock;
-    if (single)
-      single->multiply(u, now.relaxation.u_static, now.relaxation.Ku_static, Ku);
+    if (packed)
+      packed->multiply(u, now.relaxation.u_static, now.relaxation.Ku_static, Ku);
     else
       structure.multiply_stiffness(u, Ku);
     spent.substitutions += clock.seconds();

@@ -5,7 +5,7 @@
 #include <voussoir/dynamics/integrator.h>
 #include <voussoir/dynamics/pair_clusters.h>
 #include <voussoir/dynamics/support.h>
-#include <voussoir/solid/single_stiffness.h>
+#include <voussoir/solid/packed_stiffness.h>
 
 namespace Voussoir
 {
@@ -80,8 +80,8 @@ namespace Voussoir
     const double         h;       ///< [s]
     const double         gain;    ///< change of momentum per force, with the damping of the mass [s]
     StepNeighbour *const neighbour;
-    std::unique_ptr<SingleStiffness>
-                             single; ///< with memory of the damping, which has the state of rest; or null
+    std::unique_ptr<PackedStiffness>
+                             packed; ///< with memory of the damping, which has the state of rest; or null
     Unknowns                 outer;  ///< forces of the neighbour at the start of the step h [N]
     const PairClusters       clusters;
     std::vector<PairState>   states;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/solid/single_stiffness.h>
+#include <voussoir/solid/packed_stiffness.h>
 
 #include <algorithm>
 
@@ -17,7 +17,7 @@ namespace Voussoir
     {
       const std::size_t  *start;
       const unsigned int *column;
-      const float        *value;
+      const double       *value;
       const double       *x, *y_rest;
       double             *y;
       int                 first, last;
@@ -31,7 +31,7 @@ namespace Voussoir
           double sum = 0.;
           for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
             for (unsigned int d = 0; d < 3; ++d)
-              sum += double(rows.value[9 * k + 3 * d + c]) * rows.x[3 * std::size_t(rows.column[k]) + d];
+              sum += rows.value[9 * k + 3 * d + c] * rows.x[3 * std::size_t(rows.column[k]) + d];
           rows.y[3 * row + c] = rows.y_rest[3 * row + c] + sum;
         }
     }
@@ -40,20 +40,16 @@ namespace Voussoir
     /** The fourth value of a vector is unused: it belongs to the next column. */
     __attribute__((target("avx2,fma"))) void multiply_rows_avx2(const RowProduct &rows)
     {
-      const auto column_of = [](const float *v) __attribute__((target("avx2,fma")))
-      {
-        return _mm256_cvtps_pd(_mm_loadu_ps(v));
-      };
       for (int row = rows.first; row < rows.last; ++row)
       {
         __m256d sums[3] = {_mm256_setzero_pd(), _mm256_setzero_pd(), _mm256_setzero_pd()};
         for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
         {
-          const float  *v = rows.value + 9 * k;
+          const double *v = rows.value + 9 * k;
           const double *x = rows.x + 3 * std::size_t(rows.column[k]);
-          sums[0] = _mm256_fmadd_pd(column_of(v), _mm256_broadcast_sd(x), sums[0]);
-          sums[1] = _mm256_fmadd_pd(column_of(v + 3), _mm256_broadcast_sd(x + 1), sums[1]);
-          sums[2] = _mm256_fmadd_pd(column_of(v + 6), _mm256_broadcast_sd(x + 2), sums[2]);
+          sums[0] = _mm256_fmadd_pd(_mm256_loadu_pd(v), _mm256_broadcast_sd(x), sums[0]);
+          sums[1] = _mm256_fmadd_pd(_mm256_loadu_pd(v + 3), _mm256_broadcast_sd(x + 1), sums[1]);
+          sums[2] = _mm256_fmadd_pd(_mm256_loadu_pd(v + 6), _mm256_broadcast_sd(x + 2), sums[2]);
         }
         double sum[4];
         _mm256_storeu_pd(sum, _mm256_add_pd(_mm256_add_pd(sums[0], sums[1]), sums[2]));
@@ -73,7 +69,7 @@ namespace Voussoir
     }
   } // namespace
 
-  SingleStiffness::SingleStiffness(const Structure &structure) : start(1, 0)
+  PackedStiffness::PackedStiffness(const Structure &structure) : start(1, 0)
   {
     for (const Body &body : structure.bodies)
       for (unsigned int row = 0; row < body.n_nodes(); ++row)
@@ -86,10 +82,10 @@ namespace Voussoir
         }
         start.push_back(column.size());
       }
-    value.insert(value.end(), 3, 0.f);
+    value.insert(value.end(), 3, 0.);
   }
 
-  void SingleStiffness::multiply(const Unknowns &u, const Unknowns &u_rest, const Unknowns &y_rest,
+  void PackedStiffness::multiply(const Unknowns &u, const Unknowns &u_rest, const Unknowns &y_rest,
                                  Unknowns &y) const
   {
     constexpr int per_chunk = 64;
