@@ -78,12 +78,10 @@ namespace Voussoir
   Leapfrog::Leapfrog(const Structure &structure, const JointLaws &laws, const double dt,
                      const unsigned int n_steps, StepNeighbour *const neighbour)
       : Integrator(structure, laws), dt(dt), n_steps(n_steps), h(dt / n_steps),
-        gain(h / (1. + .5 * h * structure.damping.mass)), neighbour(neighbour), clusters(structure),
-        states(structure.pairs.size(), PairState::open)
+        gain(h / (1. + .5 * h * structure.damping.mass)), neighbour(neighbour), stiffness(structure),
+        clusters(structure), states(structure.pairs.size(), PairState::open)
   {
     check(structure);
-    if (structure.damping.relaxes())
-      packed = std::make_unique<PackedStiffness>(structure);
     std::size_t at = 0;
     for (const JointLaw *law : laws.of_pair)
     {
@@ -106,8 +104,7 @@ namespace Voussoir
 
   double Leapfrog::memory() const
   {
-    double bytes =
-        14. * sizeof(double) * now.u.size() + (packed ? packed->memory() : 0.); // vectors of the state
+    double bytes = 14. * sizeof(double) * now.u.size() + stiffness.memory(); // vectors of the state
     for (const Body &body : structure.bodies)
       bytes += 10. * sizeof(double) * body.stiffness.value.size();
     return bytes;
@@ -368,13 +365,7 @@ namespace Voussoir
         kinetic += .5 * dot(v, structure.mass[i] * v);
         if (!structure.added_mass.empty())
           water += .5 * dot(v, structure.added_mass[i] * v);
-        if (const DampingMemory &rest = now.relaxation; packed) // K acts on u - u_static
-        {
-          const Vector3 from = before - get(rest.u_static, i), f = get(rest.Ku_static, i);
-          strain += .5 * (dot(from, get(Ku, i) - f) + dot(sum_of(from, get(u, i)), f));
-        }
-        else
-          strain += .5 * dot(before, get(Ku, i));
+        strain += .5 * dot(before, get(Ku, i));
         for (unsigned int c = 0; c < 3 && !elastic_force.empty(); ++c)
           strain -= .5 * elastic_force[3 * i + c] * (before[c] + u[3 * i + c]);
       }
@@ -415,10 +406,7 @@ namespace Voussoir
     for (int k = 0; k < static_cast<int>(u.size()); ++k)
       u[k] = now.u[k] + h * next[k];
     Stopwatch clock;
-    if (packed)
-      packed->multiply(u, now.relaxation.u_static, now.relaxation.Ku_static, Ku);
-    else
-      structure.multiply_stiffness(u, Ku);
+    stiffness.multiply(u, Ku);
     spent.substitutions += clock.seconds();
     const Damping::Energies relaxed =
         structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation);

@@ -67,6 +67,8 @@ namespace Voussoir
             throw InputError("mesh " + source +
                              ": two nodes of one monolith have the same position on the dam's base, " +
                              dam.place_of(base_node.nodes[0]) + ". Merge these nodes in the mesh.");
+        if (parameters.coupling == "common step")
+          of_dam = structure.bodies[0].stiffness;
         add_rock(1., structure);
       }
 
@@ -157,11 +159,11 @@ namespace Voussoir
 
       StepNeighbour *step_neighbour(Structure &structure) override
       {
-        add_rock(-1., structure);
+        structure.bodies[0].stiffness = std::move(of_dam);
         S = dam_nodes.matrix(rock.matrix());
         Unknowns u;
         gather(at_rest, u);
-        account.assign(u.size() + 1, 0.); // S u, and the strain energy since the start
+        account.assign(u.size() + 1, 0.);
         S.multiply(u.data(), account.data());
         for (std::size_t k = 0; k < u.size(); ++k)
           strain_of_start += .5 * account[k] * u[k];
@@ -255,23 +257,24 @@ namespace Voussoir
         return .5 / (softest * most);
       }
 
-      const FoundationParameters       parameters;
-      const HexMesh                    mesh;
-      const std::string                source;
-      const bool                       incompatible_modes, one_body;
-      CondensedRock                    rock;
-      DamNodes                         dam_nodes;
-      TimeGrid                         grid;
-      Unknowns                         at_rest;
-      Unknowns                         offset;            ///< MasslessSupport::offset [m]
-      double                           spring = 0.;       ///< at the base nodes in the static state [N/m]
-      std::vector<Vector3>             places;            ///< of the dam nodes on the rock [m]
-      double                           damping = 0.;      ///< stiffness-proportional [s]
-      std::unique_ptr<BaseMotion>      base_motion;       ///< or null: the banks have the ground motion
-      std::vector<double>              steps_done = {0.}; ///< for base_motion of one body
-      BlockSparseMatrix                S;       ///< of the base nodes, for the explicit scheme [N/m]
-      std::vector<double>              account; ///< of the explicit scheme
-      double                           strain_of_start = 0.; ///< of the rock [J]
+      const FoundationParameters  parameters;
+      const HexMesh               mesh;
+      const std::string           source;
+      const bool                  incompatible_modes, one_body;
+      CondensedRock               rock;
+      DamNodes                    dam_nodes;
+      TimeGrid                    grid;
+      Unknowns                    at_rest;
+      Unknowns                    offset;            ///< MasslessSupport::offset [m]
+      double                      spring = 0.;       ///< at the base nodes in the static state [N/m]
+      std::vector<Vector3>        places;            ///< of the dam nodes on the rock [m]
+      double                      damping = 0.;      ///< stiffness-proportional [s]
+      std::unique_ptr<BaseMotion> base_motion;       ///< or null: the banks have the ground motion
+      std::vector<double>         steps_done = {0.}; ///< for base_motion of one body
+      // For the explicit scheme:
+      BlockSparseMatrix   of_dam, S;            ///< of the dam without the rock, and of the base nodes [N/m]
+      std::vector<double> account;              ///< forces S u [N], and strain() [J]
+      double              strain_of_start = 0.; ///< of the rock [J]
       std::unique_ptr<MasslessSupport> supported;
     };
   } // namespace

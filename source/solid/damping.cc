@@ -10,6 +10,47 @@ namespace Voussoir
 {
   namespace
   {
+    /** Returns the product of a - a_rest and b - b_rest. */
+    double product_of_changes(const double *a, const double *a_rest, const double *b, const double *b_rest,
+                              const std::size_t n)
+    {
+      double sum = 0.;
+#pragma omp simd reduction(+ : sum)
+      for (std::size_t k = 0; k < n; ++k)
+        sum += (a[k] - a_rest[k]) * (b[k] - b_rest[k]);
+      return sum;
+    }
+
+    /** Values of a range of components, before and after a step: u, K u and the memory variable d with K d. */
+    struct MechanismStep
+    {
+      const double *u_old, *Ku_old, *u, *Ku;
+      double       *d, *Kd;
+    };
+
+    /** Advances a mechanism. @p r: step over relaxation time [-], @p share: half of its part of the modulus [-]. Adds the
+     * stored and the dissipated energy to @p sums [J]. */
+    void advance_mechanism(const double r, const double share, const MechanismStep &step, const std::size_t n,
+                           std::array<double, 2> &sums)
+    {
+      const double kept = std::exp(-r), added = -std::expm1(-r) / r;
+      double       stored = 0., dissipated = 0.;
+#pragma omp simd reduction(+ : stored, dissipated)
+      for (std::size_t k = 0; k < n; ++k)
+      {
+        const double d_old = step.d[k], Kd_old = step.Kd[k];
+        const double d = kept * d_old + added * (step.u[k] - step.u_old[k]),
+                     Kd = kept * Kd_old + added * (step.Ku[k] - step.Ku_old[k]);
+        const double lost = share * r * d * (Kd + Kd_old);
+        dissipated += lost;
+        stored += share / added * d_old * Kd - lost;
+        step.d[k] = d;
+        step.Kd[k] = Kd;
+      }
+      sums[0] += stored;
+      sums[1] += dissipated;
+    }
+
     constexpr double       two_pi = 6.283185307179586;
     constexpr unsigned int n_points = 40; ///< frequencies of a fit
 
@@ -216,30 +257,17 @@ namespace Voussoir
       return {0., 0.};
     const auto advance_values = [&](const std::size_t begin, const std::size_t end)
     {
-      double        stored = 0., dissipated = 0.;
-      const double  rest = .5 * (1. - modulus);
-      const double *u_rest = memory.u_static.data(), *Ku_rest = memory.Ku_static.data(), *old = u_old.data(),
-                   *K_old = Ku_old.data(), *now = u.data(), *K_now = Ku.data();
-      _Pragma("omp simd reduction(+ : stored)") for (std::size_t k = begin; k < end; ++k) stored -=
-          rest * (old[k] - u_rest[k]) * (K_now[k] - Ku_rest[k]);
+      std::array<double, 2> sums = {
+          {-.5 * (1. - modulus) *
+               product_of_changes(&u_old[begin], &memory.u_static[begin], &Ku[begin],
+                                  &memory.Ku_static[begin], end - begin),
+           0.}};
       for (std::size_t l = 0; l < c.size(); ++l)
-      {
-        const double r = dt / tau[l], kept = std::exp(-r), added = -std::expm1(-r) / r,
-                     share = .5 * modulus * c[l];
-        double *d_l = memory.d[l].data(), *Kd_l = memory.Kd[l].data();
-        _Pragma("omp simd reduction(+ : stored, dissipated)") for (std::size_t k = begin; k < end; ++k)
-        {
-          const double d_old = d_l[k], Kd_old = Kd_l[k];
-          const double d = kept * d_old + added * (now[k] - old[k]),
-                       Kd = kept * Kd_old + added * (K_now[k] - K_old[k]);
-          const double lost = share * r * d * (Kd + Kd_old);
-          dissipated += lost;
-          stored += share / added * d_old * Kd - lost;
-          d_l[k] = d;
-          Kd_l[k] = Kd;
-        }
-      }
-      return std::array<double, 2>{{stored, dissipated}};
+        advance_mechanism(
+            dt / tau[l], .5 * modulus * c[l],
+            {&u_old[begin], &Ku_old[begin], &u[begin], &Ku[begin], &memory.d[l][begin], &memory.Kd[l][begin]},
+            end - begin, sums);
+      return sums;
     };
     const auto sums = sum_of_ranges<std::array<double, 2>>(u.size(), advance_values);
     return {sums[0], sums[1]};

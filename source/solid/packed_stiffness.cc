@@ -12,13 +12,13 @@ namespace Voussoir
 {
   namespace
   {
-    /** RowProduct from first to last, without the last one, of y = y_rest + K x. */
+    /** Rows from first to last, without the last one, of y = K x. */
     struct RowProduct
     {
       const std::size_t  *start;
       const unsigned int *column;
       const double       *value;
-      const double       *x, *y_rest;
+      const double       *x;
       double             *y;
       int                 first, last;
     };
@@ -32,7 +32,7 @@ namespace Voussoir
           for (std::size_t k = rows.start[row]; k < rows.start[row + 1]; ++k)
             for (unsigned int d = 0; d < 3; ++d)
               sum += rows.value[9 * k + 3 * d + c] * rows.x[3 * std::size_t(rows.column[k]) + d];
-          rows.y[3 * row + c] = rows.y_rest[3 * row + c] + sum;
+          rows.y[3 * row + c] = sum;
         }
     }
 
@@ -54,7 +54,7 @@ namespace Voussoir
         double sum[4];
         _mm256_storeu_pd(sum, _mm256_add_pd(_mm256_add_pd(sums[0], sums[1]), sums[2]));
         for (unsigned int c = 0; c < 3; ++c)
-          rows.y[3 * row + c] = rows.y_rest[3 * row + c] + sum[c];
+          rows.y[3 * row + c] = sum[c];
       }
     }
 #endif
@@ -85,22 +85,22 @@ namespace Voussoir
     value.insert(value.end(), 3, 0.);
   }
 
-  void PackedStiffness::multiply(const Unknowns &u, const Unknowns &u_rest, const Unknowns &y_rest,
-                                 Unknowns &y) const
+  void PackedStiffness::multiply(const Unknowns &u, Unknowns &y) const
   {
     constexpr int per_chunk = 64;
-    change.resize(u.size());
+    const int     n = static_cast<int>(start.size()) - 1;
+    const bool    is_wide = has_wide_vectors();
     y.resize(u.size());
-#pragma omp parallel for simd schedule(static)
-    for (std::size_t k = 0; k < u.size(); ++k)
-      change[k] = u[k] - u_rest[k];
-    const int  n = static_cast<int>(start.size()) - 1;
-    const bool is_wide = has_wide_vectors();
 #pragma omp parallel for schedule(static)
     for (int first = 0; first < n; first += per_chunk)
     {
-      const RowProduct rows = {start.data(),  column.data(), value.data(), change.data(),
-                               y_rest.data(), y.data(),      first,        std::min(first + per_chunk, n)};
+      const RowProduct rows = {start.data(),
+                               column.data(),
+                               value.data(),
+                               u.data(),
+                               y.data(),
+                               first,
+                               std::min(first + per_chunk, n)};
 #ifdef VOUSSOIR_WIDE_VECTORS
       if (is_wide)
         multiply_rows_avx2(rows);

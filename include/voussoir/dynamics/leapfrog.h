@@ -16,23 +16,24 @@ namespace Voussoir
     unsigned int node = 0;    ///< free node that moves most in the highest mode
   };
 
-  /** Returns the mass of a node without that of the water and @p without, which may be empty: a mean of the directions [kg]. */
+  /** Returns the mass of a node without the added mass of the water and without @p without [kg]. An empty vector is no
+   * mass. The result is the mean of the directions. */
   double mass_of(const Structure &structure, const std::vector<Matrix3> &without, std::size_t node);
 
-  /** Returns the critical step of a structure for its damping (Damping: moduli). The damping of the mass does not count.
+  /** Returns the critical step of a structure with the moduli of Structure::damping. Mass damping is neglected.
    * @param without masses of nodes that do not count, such as those of the rock [kg] */
   CriticalStep critical_step(const Structure &structure, const std::vector<Matrix3> &without);
 
-  /** Explicit time integration of a structure with joints by the leapfrog rule, with joint forces that satisfy the joint
-   * laws at the end of each step (Carpenter, Taylor, Katona 1991, Int. J. Numer. Methods Eng. 32, 103-128):
+  /** Explicit time integration of a structure with joints by the leapfrog rule. The joint forces satisfy the joint laws at
+   * the end of each step (Carpenter, Taylor, Katona 1991, Int. J. Numer. Methods Eng. 32, 103-128):
    *
    *     v(k + 1/2) = v(k - 1/2) + h M^-1 (F(k) - K w(k) + G^T f(k)),   u(k + 1) = u(k) + h v(k + 1/2).
    *
    * The mass matrix is lumped, so each pair is solved alone, and so is each cluster of pairs that share nodes. The
    * displacement w has the memory of the damping (Damping). advance() divides a time step into equal steps h below the
-   * critical step; the load is linear in the time step. DynamicState::v is the velocity at the middle of the last step h.
-   * The kinetic and strain energies are those of this time: v M v / 2 and u(k) K u(k + 1) / 2. Their balance is exact.
-   * If advance() throws, the state is that of the step h that failed. */
+   * critical step. The load is linear in the time step. DynamicState::v is the velocity at the middle of the last
+   * step h. The kinetic energy v M v / 2 and the strain energy u(k) K u(k + 1) / 2 belong to the same time, and their
+   * balance is exact. If advance() throws, the state is that of the step h that failed. */
   class Leapfrog : public Integrator
   {
   public:
@@ -75,14 +76,13 @@ namespace Voussoir
     void         move(double share, const Unknowns &load, bool is_last, Work &work);
     void         account(double more);
 
-    const double         dt;
-    const unsigned int   n_steps; ///< steps h in dt
-    const double         h;       ///< [s]
-    const double         gain;    ///< change of momentum per force, with the damping of the mass [s]
-    StepNeighbour *const neighbour;
-    std::unique_ptr<PackedStiffness>
-                             packed; ///< with memory of the damping, which has the state of rest; or null
-    Unknowns                 outer;  ///< forces of the neighbour at the start of the step h [N]
+    const double             dt;
+    const unsigned int       n_steps; ///< steps h in dt
+    const double             h;       ///< [s]
+    const double             gain;    ///< change of momentum per force, with the damping of the mass [s]
+    StepNeighbour *const     neighbour;
+    const PackedStiffness    stiffness;
+    Unknowns                 outer; ///< forces of the neighbour at the start of the step h [N]
     const PairClusters       clusters;
     std::vector<PairState>   states;
     SystemTimes              spent;

@@ -55,12 +55,12 @@ namespace Voussoir
     /** Adds the forces on the dam at the present time to @p load [N]. */
     virtual void add_forces(Unknowns &load) const = 0;
 
-    /** Advances by a step of the scheme. @p u: displacement of the dam at the end of the step [m], @p w: velocity in the
-     * step [m/s]. */
+    /** Advances by a step of the scheme. @p u: displacement of the dam at the end of the step [m], @p w: velocity in
+     * the step [m/s]. */
     virtual void advance(const Unknowns &u, const Unknowns &w) = 0;
 
-    /** Returns the change of the strain energy since the start that is not part of an energy account of its own [J]. It
-     * belongs to the middle of the last step. */
+    /** Returns the change of the strain energy since the start at the middle of the last step [J]. A neighbour with its
+     * own energy balance returns zero. */
     virtual double strain() const { return 0.; }
   };
 } // namespace Voussoir

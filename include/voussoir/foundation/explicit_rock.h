@@ -49,8 +49,7 @@ namespace Voussoir
     /** Returns the critical time step of the rock, with its damping [s]; 0 before add_stiffness(). */
     double critical_time_step() const { return dt_critical; }
 
-    /** Returns the number of steps within the limits of rock and boundary, at most 100 (check() refuses larger
-     * steps). */
+    /** Returns the smaller one of the limits of rock and boundary [s]. */
     double largest_step() const override { return std::min(dt_critical, dt_boundary); }
 
     /** Returns the free field of the section upstream, or of the highest column. It has its own

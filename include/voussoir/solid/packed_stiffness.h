@@ -12,8 +12,8 @@ namespace Voussoir
   public:
     explicit PackedStiffness(const Structure &structure);
 
-    /** Sets y = y_rest + K (u - u_rest), three values per node [N]. The result does not depend on the number of threads. */
-    void multiply(const Unknowns &u, const Unknowns &u_rest, const Unknowns &y_rest, Unknowns &y) const;
+    /** Sets y = K u, three values per node [N]. The result does not depend on the number of threads. */
+    void multiply(const Unknowns &u, Unknowns &y) const;
 
     double memory() const { return 8. * value.size() + 4. * column.size(); } ///< [bytes]
 
@@ -21,7 +21,6 @@ namespace Voussoir
     std::vector<std::size_t>  start; ///< of each row, and the end
     std::vector<unsigned int> column;
     std::vector<double>       value; ///< blocks of nine by columns; then three zeros
-    mutable Unknowns          change;
   };
 } // namespace Voussoir
 
