@@ -271,7 +271,7 @@ namespace Voussoir
     return sweep;
   }
 
-  /** Solves a cluster; as long as a pair exceeds its limit, the pairs with the largest utilisations get an event. Returns
+  /** Solves a cluster. While a pair exceeds its limit, the pairs with the largest utilisations get an event. Returns
    * the number of iterations. */
   unsigned int Leapfrog::solve_with_events(const PairClusters::Cluster &cluster)
   {

@@ -20,9 +20,9 @@ namespace Voussoir
     double                   volume = 0.;       ///< of the concrete [m^3]
     double                   crest_length = 0.; ///< see Voussoir::crest_length() [m]
     std::vector<double> frequencies; ///< first of the tied dam with its water [Hz]; only for uniform damping
-    double critical_step = 0.;   ///< of the undamped or damped dam, for explicit schemes [s]; 0: not computed
-    std::string critical_place;  ///< where the mode of the critical step moves most
-    double      added_mass = 0.; ///< total for motion along x [kg]; 0 without water
+    double      critical_step = 0.; ///< critical step of the dam for the explicit scheme [s]; 0: not computed
+    std::string critical_place;     ///< place with the largest motion in the highest mode
+    double      added_mass = 0.;    ///< total for motion along x [kg]; 0 without water
   };
 } // namespace Voussoir
 

@@ -15,12 +15,12 @@ namespace Voussoir
     Unknowns            pattern;     ///< nodal forces at the value 1, three values per free node [-]
     std::vector<double> time, value; ///< rows of the file [s], [N]
 
-    /** Returns the force at a time, of two rows with the same time that of the second [N]. */
+    /** Returns the force at a time [N]. Of two rows with the same time the second holds from then on. */
     double at(double t) const;
   };
 
-  /** Returns the forces of "Loads/Force history" times a factor. Throws InputError for points outside of the model or on
-   * fixed nodes, and for invalid files. */
+  /** Returns the forces of "Loads/Force history" times a factor. Throws InputError for a point outside of the model or
+   * on fixed nodes, and for an invalid file. */
   std::vector<ForceInTime> forces_in_time(const Scene &scene, const SolidModel &model,
                                           const Structure &structure, double factor);
 } // namespace Voussoir

@@ -178,7 +178,8 @@ namespace Voussoir
     /** Returns true if the dam moves without an earthquake: by force histories or initial velocities. */
     bool moves_alone() const { return !loads.force_history.empty() || !initial_velocity.empty(); }
 
-    /** Returns the initial velocities by physical id of the block, 0: all [m/s]. Throws InputError for malformed ones. */
+    /** Returns the initial velocities by physical id of the block, 0 for all blocks [m/s]. Throws InputError for a
+     * malformed entry. */
     std::map<int, Vector3> initial_velocities() const;
 
     std::vector<Warning> warnings;             ///< of read_scene()
