@@ -272,7 +272,8 @@ namespace Voussoir
       const std::vector<Column> columns =
           columns_of(text.lines[first].substr(0, text.lines[first].find('#')));
       lines.erase(lines.begin());
-      if (lines.empty() || lines[0].words.size() == columns.size())
+      if (lines.empty() || lines[0].words.size() == columns.size() ||
+          has_headings(lines)) // reported by rows_of()
         return columns;
       if (std::any_of(columns.begin(), columns.end(), [](const Column &c) { return c.quantity != '?'; }))
         text.fail(first, std::to_string(columns.size()) + " headings, " +
