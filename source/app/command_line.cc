@@ -6,6 +6,7 @@
 #include <voussoir/app/command_options.h>
 #include <voussoir/app/completion.h>
 #include <voussoir/app/declared_entries.h>
+#include <voussoir/app/ensemble.h>
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/modes_command.h>
 #include <voussoir/app/new_command.h>
@@ -122,9 +123,25 @@ namespace Voussoir
 #ifdef DEBUG
       std::cerr << "voussoir: warning: this is a Debug build, many times slower than Release.\n";
 #endif
+      const auto scene_of = [&](const EnsembleMember &member)
+      {
+        std::vector<std::string> overrides = arguments.overrides;
+        for (const auto &[entry, value] : member.entries)
+          overrides.push_back(entry + "=" + value);
+        std::pair<Scene, std::string> result;
+        Entries                       prm;
+        std::ostringstream            text_of_member;
+        read_scene(scene_file(arguments), overrides, result.first, prm);
+        prm.print_parameters(text_of_member, ParameterHandler::PRM | ParameterHandler::KeepDeclarationOrder);
+        result.second = text_of_member.str();
+        return result;
+      };
       try
       {
-        Simulation(scene, text, options).run();
+        if (scene.motion.ensemble.empty())
+          Simulation(scene, text, options).run();
+        else
+          EnsembleRun(scene, text, options, scene_of).run();
       }
       catch (const std::bad_alloc &)
       {
@@ -174,6 +191,9 @@ namespace Voussoir
                     arguments.value("--spectrum"), arguments.has("--json"));
       else if (command == "mesh")
         write_mesh(scene, arguments);
+      else if (!scene.motion.ensemble.empty())
+        throw InputError("`voussoir motion` writes one motion, but Motion/Ensemble has several. Choose one with --set "
+                         "Motion/Ensemble= and Motion/Seed or Motion/File.");
       else
       {
         const GroundMotion motion = make_motion(scene.motion, scene.directory);

@@ -85,22 +85,18 @@ namespace Voussoir
     Json json_of_extremes(const RunObservers &observers)
     {
       Json json;
-      observers.joints.add_extremes(json);
-      observers.stresses.add_extremes(json);
+      for (const NamedExtremes &extremes : {observers.joints.extremes(), observers.stresses.extremes()})
+        for (const auto &[name, extreme] : extremes)
+          json.add(name, json_of(extreme));
       return json;
     }
 
     Assessment assessment_of(const RunState &run, const RunObservers &observers)
     {
-      const StressObserver &stress = observers.stresses;
-      const StressesOfRun   stresses{stress.envelope, stress.tension,
-                                   run.n_steps > 0 ? run.scene().output.envelope_interval.samples : 1};
-      return {run.scene().limits,
-              *run.dam->model,
-              stress.is_recording() ? &stresses : nullptr,
-              run.dam->structure.pairs.empty() ? nullptr : &observers.joints.joints,
-              observers.blocks ? &observers.blocks->blocks : nullptr,
-              observers.wedges ? std::optional<double>(observers.wedges->least_safety()) : std::nullopt};
+      return assess(run, observers.joints, observers.stresses,
+                    observers.blocks ? &observers.blocks->blocks : nullptr,
+                    observers.wedges ? std::optional<double>(observers.wedges->least_safety())
+                                     : std::nullopt);
     }
   } // namespace
 
@@ -222,24 +218,60 @@ namespace Voussoir
       log.line("Limits    %s", words.c_str());
   }
 
+  namespace
+  {
+    /** Returns the members at the beginning of summary.json: model and program. */
+    Json json_of_model(const RunState &run)
+    {
+      const Dam   &dam = *run.dam;
+      const Scene &scene = run.scene();
+      Json         json;
+      return json.add("scene", scene.name)
+          .add("law", dam.layout.tied ? "tied" : scene.joints.model)
+          .add("foundation", scene.foundation.model)
+          .add("version", version())
+          .add("revision", revision())
+          .add("dealii", DEAL_II_PACKAGE_VERSION)
+          .add("ranks", double(Ranks::size()))
+          .add("threads", omp_get_max_threads())
+          .add("mesh", json_of_mesh(dam))
+          .add("zones", json_of_zones(dam));
+    }
+
+    void write_json(const std::string &file, const Json &json)
+    {
+      OutputFile out(file);
+      out << json.text() << "\n";
+      out.check();
+    }
+  } // namespace
+
+  void write_ensemble_summary(const std::string &directory, const RunState &run, const Json &ensemble,
+                              const RunCounters &counters, const Log &log)
+  {
+    Json summary = json_of_model(run), seconds;
+    seconds.add("wall", counters.wall())
+        .add("cpu", counters.cpu())
+        .add("setup", counters.setup)
+        .add("static", counters.statics)
+        .add("shaking", counters.shaking);
+    summary.add("time_step", run.motion.dt)
+        .add("seconds", seconds)
+        .add("memory_bytes", largest_memory_consumption())
+        .add("ensemble", ensemble)
+        .add("loads", json_of_loads(*run.dam))
+        .add("warnings", log.warnings());
+    write_json(directory + "/summary.json", summary);
+  }
+
   void write_summary(const std::string &directory, const RunState &run, const RunObservers &observers,
                      const RunCounters &counters, const RankCounters &ranks, const Log &log)
   {
     const Dam       &dam = *run.dam;
     const Scene     &scene = run.scene();
     const Assessment assessment = assessment_of(run, observers);
-    Json             summary;
-    summary.add("scene", scene.name)
-        .add("law", dam.layout.tied ? "tied" : scene.joints.model)
-        .add("foundation", scene.foundation.model)
-        .add("version", version())
-        .add("revision", revision())
-        .add("dealii", DEAL_II_PACKAGE_VERSION)
-        .add("ranks", double(Ranks::size()))
-        .add("threads", omp_get_max_threads())
-        .add("mesh", json_of_mesh(dam))
-        .add("zones", json_of_zones(dam))
-        .add("steps", run.step)
+    Json             summary = json_of_model(run);
+    summary.add("steps", run.step)
         .add("time_step", run.motion.dt)
         .add("seconds", counters.json_of_times(run, observers.stresses.seconds))
         .add("memory_bytes", largest_memory_consumption())
@@ -268,8 +300,6 @@ namespace Voussoir
     if (observers.stresses.is_recording() && scene.strength_of_area() > 0.)
       summary.add("tension_above_strength", observers.stresses.json_of_strength());
     dam.foundation->add_to_summary(summary, run.grid());
-    OutputFile out(directory + "/summary.json");
-    out << summary.text() << "\n";
-    out.check();
+    write_json(directory + "/summary.json", summary);
   }
 } // namespace Voussoir

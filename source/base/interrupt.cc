@@ -48,7 +48,7 @@ namespace Voussoir
     return living;
   }
 
-  const char *InterruptGuard::received() const
+  const char *InterruptGuard::received()
   {
     for (unsigned int i = 0; i < 3; ++i)
       if (noted == numbers[i])

@@ -477,6 +477,10 @@ namespace Voussoir
           add(in_sequence ? "Motion/Sequence" : entries[d], part.component_files[d]);
       }
     }
+    for (const EnsembleMember &member : motion.members())
+      for (const auto &[entry, value] : member.entries)
+        if (entry.rfind("Motion/File", 0) == 0)
+          add("Motion/Ensemble", value);
     for (const StationParameters &station : motion.stations())
     {
       add("Motion/Abutments", station.record.file);

@@ -2,6 +2,7 @@
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/model_choices.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/base/units.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/motion/motion_parameters.h>
@@ -18,7 +19,7 @@ namespace Voussoir
   {
     namespace Patterns = dealii::Patterns;
 
-    const char *const names[] = {"x", "y", "z"};
+    const char *const names_of_axes[] = {"x", "y", "z"};
   } // namespace
 
   void MotionParameters::add_parameters(Entries &prm)
@@ -42,10 +43,11 @@ namespace Voussoir
         {1e-4, .05});
     prm.add_parameter("Factor", factor, "Factor of all components [-], for every source.");
     for (unsigned int d = 0; d < 3; ++d)
-      prm.add_parameter(std::string("Scale ") + names[d], scale[d],
-                        std::string("Factor [-] of the component in ") + names[d] +
+      prm.add_parameter(std::string("Scale ") + names_of_axes[d], scale[d],
+                        std::string("Factor [-] of the component in ") + names_of_axes[d] +
                             ", for every source. 0 switches the component off.");
     add_sequence_parameters(prm);
+    add_ensemble_parameters(prm);
     add_file_parameters(prm);
     add_artificial_parameters(prm);
     prm.leave_subsection();
@@ -75,6 +77,24 @@ namespace Voussoir
         Patterns::Anything());
   }
 
+  void MotionParameters::add_ensemble_parameters(Entries &prm)
+  {
+    prm.add_parameter(
+        "Ensemble", ensemble,
+        "Several motions, each one for a separate run from the same static state, separated by semicolons as in "
+        "Sequence. Source = artificial: seeds, such as 1-16 or 3; 7; 11. Source = file: files. The results are the "
+        "median and the scatter. Empty: one motion.",
+        Patterns::Anything());
+    prm.add_parameter("Ensemble factors", ensemble_factors,
+                      "Factors [-] of all motions of Ensemble, besides Factor, as in 0.5, 1, 1.5: incremental "
+                      "dynamic analysis. Empty: 1.",
+                      Patterns::Anything());
+    prm.add_parameter("Ensemble output", ensemble_output,
+                      "Numbers of the motions of Ensemble, such as 3, 7, whose run is written with all tables to a "
+                      "directory of its own. Empty: none.",
+                      Patterns::Anything());
+  }
+
   void MotionParameters::add_file_parameters(Entries &prm)
   {
     prm.add_parameter(
@@ -86,8 +106,8 @@ namespace Voussoir
         Patterns::Anything());
     for (unsigned int d = 0; d < 3; ++d)
       prm.add_parameter(
-          std::string("File ") + names[d], component_files[d],
-          std::string("Source = file: component in ") + names[d] +
+          std::string("File ") + names_of_axes[d], component_files[d],
+          std::string("Source = file: component in ") + names_of_axes[d] +
               ", as a table with the columns t [s], a, or as a file of K-NET, KiK-net, ESM, AFAD, SMC, COSMOS, CSMIP "
               "or PEER (AT2). Empty: the component is zero.",
           Patterns::Anything());
@@ -248,9 +268,9 @@ namespace Voussoir
     {
       const bool components_given =
           !(p.component_files[0] + p.component_files[1] + p.component_files[2]).empty();
-      if (p.source == "file" && p.file.empty() && !components_given && p.sequence.empty())
+      if (p.source == "file" && p.file.empty() && !components_given && (p.sequence + p.ensemble).empty())
         throw InputError("Motion/Source is file, but no file is given: set Motion/File (columns t, a_x, a_y, "
-                         "a_z), Motion/File x, File y, File z, or Motion/Sequence.");
+                         "a_z), Motion/File x, File y, File z, Motion/Sequence or Motion/Ensemble.");
       if (p.source == "file" && !p.file.empty() && components_given)
         throw InputError("Motion/File and Motion/File x, y, z are both given: keep either the file with all "
                          "components or the files with one each.");
@@ -315,6 +335,7 @@ namespace Voussoir
     if (source == "artificial")
       check_artificial(*this);
     stations();
+    members();
   }
 
   double MotionParameters::length() const
@@ -332,15 +353,16 @@ namespace Voussoir
   namespace
   {
     /** Sets the seed of a part. @p element: element of "Sequence". */
-    void set_seed(MotionParameters &part, const std::string &element)
+    void set_seed(MotionParameters &part, const std::string &element, const std::string &entry = "Sequence")
     {
       const char *end = element.data() + element.size();
       const auto  read = std::from_chars(element.data(), end, part.seed);
       if (read.ec != std::errc() || read.ptr != end)
         throw InputError(
-            "Motion/Sequence: '" + element +
+            "Motion/" + entry + ": '" + element +
             "' is not a seed. With Motion/Source = artificial give whole numbers from 0, separated "
-            "by semicolons, such as 1; 2.");
+            "by semicolons, such as 1; 2" +
+            (entry == "Sequence" ? "." : ", or a range such as 1-16."));
     }
 
     /** Sets the files of a part. @p element: element of "Sequence" or "Abutments", which @p entry names. */
@@ -375,6 +397,138 @@ namespace Voussoir
         set_files(part, element, "Sequence");
       result.push_back(part);
     }
+    return result;
+  }
+
+  namespace
+  {
+    constexpr std::size_t most_members = 10000; ///< motions of "Ensemble", with all factors
+
+    /** Returns the elements of "Ensemble", with each range of seeds as single seeds. */
+    std::vector<std::string> elements_of_ensemble(const MotionParameters &p)
+    {
+      std::vector<std::string> result;
+      for (const std::string &element : split(p.ensemble, ';'))
+      {
+        const auto dash = element.find('-', 1);
+        if (p.source != "artificial" || dash == std::string::npos)
+        {
+          result.push_back(element);
+          continue;
+        }
+        MotionParameters first = p, last = p;
+        set_seed(first, split(element.substr(0, dash), ';')[0], "Ensemble");
+        set_seed(last, split(element.substr(dash + 1), ';')[0], "Ensemble");
+        if (last.seed < first.seed || last.seed - first.seed >= most_members)
+          throw InputError("Motion/Ensemble: the range '" + element + "' is empty or has more than " +
+                           std::to_string(most_members) + " seeds. Write the smaller seed first.");
+        for (unsigned int seed = first.seed; seed <= last.seed; ++seed)
+          result.push_back(std::to_string(seed));
+      }
+      return result;
+    }
+
+    /** Returns the numbers of a list that commas separate. @p entry names the list. */
+    std::vector<double> numbers_of(const std::string &list, const std::string &entry, const double low,
+                                   const double high)
+    {
+      std::vector<double> result;
+      for (const std::string &element : split(list, ','))
+      {
+        double             value = 0.;
+        std::istringstream in(element);
+        std::string        more;
+        if (!(in >> value) || in >> more || !(value >= low && value <= high))
+          throw InputError("Motion/" + entry + ": '" + element + "' is not a number from " +
+                           number_text(low) + " to " + number_text(high) +
+                           ". Separate the numbers by commas.");
+        if (std::count(result.begin(), result.end(), value) > 0)
+          throw InputError("Motion/" + entry + " has " + element + " twice. Remove one of them.");
+        result.push_back(value);
+      }
+      return result;
+    }
+
+    /** Returns the motion of an element of "Ensemble". */
+    EnsembleMember member_of(const MotionParameters &p, const std::string &element)
+    {
+      EnsembleMember    member{"", 1., p, {}};
+      MotionParameters &motion = member.motion;
+      for (const auto &[entry, value] : {std::make_pair("Motion/Ensemble", &motion.ensemble),
+                                         {"Motion/Ensemble factors", &motion.ensemble_factors},
+                                         {"Motion/Ensemble output", &motion.ensemble_output}})
+      {
+        value->clear();
+        member.entries[entry] = "";
+      }
+      if (p.source == "artificial")
+      {
+        set_seed(motion, element, "Ensemble");
+        member.entries["Motion/Seed"] = std::to_string(motion.seed);
+      }
+      else
+      {
+        set_files(motion, element, "Ensemble");
+        member.entries["Motion/File"] = motion.file;
+        for (unsigned int d = 0; d < 3; ++d)
+          member.entries[std::string("Motion/File ") + names_of_axes[d]] = motion.component_files[d];
+      }
+      member.name = motion.name_of_part();
+      return member;
+    }
+
+    void check_ensemble(const MotionParameters &p)
+    {
+      const std::string files = p.file + p.component_files[0] + p.component_files[1] + p.component_files[2];
+      if (p.source == "none")
+        throw InputError(
+            "Motion/Ensemble requires motions, but Motion/Source is none. Set Source to artificial or file.");
+      if (!p.sequence.empty() || !p.abutments.empty())
+        throw InputError(
+            std::string("Motion/Ensemble and Motion/") + (p.sequence.empty() ? "Abutments" : "Sequence") +
+            " are both given. Each motion of Ensemble is one motion for the whole base. Remove one of the entries.");
+      if (!files.empty())
+        throw InputError("Motion/Ensemble and Motion/File (or File x, y, z) are both given: move the file into "
+                         "Ensemble, or remove Ensemble.");
+    }
+  } // namespace
+
+  std::vector<EnsembleMember> MotionParameters::members() const
+  {
+    if (ensemble.empty())
+    {
+      if (!(ensemble_factors + ensemble_output).empty())
+        throw InputError("Motion/Ensemble factors and Ensemble output require Motion/Ensemble, such as 1-16. "
+                         "Give it, or remove them.");
+      return {};
+    }
+    check_ensemble(*this);
+    const std::vector<std::string> elements = elements_of_ensemble(*this);
+    const std::vector<double>      factors = ensemble_factors.empty()
+                                                 ? std::vector<double>{1.}
+                                                 : numbers_of(ensemble_factors, "Ensemble factors", 1e-6, 1e6);
+    std::vector<EnsembleMember>    result;
+    std::map<std::string, bool>    names;
+    for (const double factor_of_all : factors)
+      for (const std::string &element : elements)
+      {
+        EnsembleMember member = member_of(*this, element);
+        member.factor = factor_of_all;
+        member.motion.factor *= factor_of_all;
+        std::ostringstream product;
+        product.precision(17);
+        product << member.motion.factor;
+        member.entries["Motion/Factor"] = product.str();
+        if (factor_of_all == factors[0] && !names.emplace(member.name, true).second)
+          throw InputError("Motion/Ensemble has " + member.name + " twice. Remove one of them.");
+        result.push_back(member);
+      }
+    if (result.size() > most_members)
+      throw InputError("Motion/Ensemble with Ensemble factors has " + std::to_string(result.size()) +
+                       " motions, more than " + std::to_string(most_members) + ". Reduce their number.");
+    if (!ensemble_output.empty())
+      for (const double number : numbers_of(ensemble_output, "Ensemble output", 1., result.size()))
+        result[std::size_t(number) - 1].has_output = true;
     return result;
   }
 
@@ -426,7 +580,7 @@ namespace Voussoir
   {
     const auto moves = [&](const unsigned int d)
     {
-      const bool in_file = source == "file" && file.empty() && abutments.empty() && sequence.empty() &&
+      const bool in_file = source == "file" && (file + sequence + ensemble).empty() && abutments.empty() &&
                            component_files[d].empty();
       return source != "none" && factor != 0. && scale[d] != 0. && !in_file;
     };
@@ -436,7 +590,7 @@ namespace Voussoir
       choices.add("motion", "without the cross-stream component", "Motion/Scale y", 0., true);
     if (moves(2))
       choices.add("motion", "without the vertical component", "Motion/Scale z", 0., true);
-    for (unsigned int n = 1; source == "artificial" && sequence.empty() && n <= 3; ++n)
+    for (unsigned int n = 1; source == "artificial" && (sequence + ensemble).empty() && n <= 3; ++n)
       choices.add("motion", "scatter of the motion, seed " + std::to_string(seed + n), "Motion/Seed",
                   seed + n);
   }

@@ -203,6 +203,7 @@ namespace Voussoir
     if (stresses.interval > 1)
       without = "Output/Envelope interval is " + std::to_string(stresses.interval) +
                 ", so that peaks between are missed";
+    longest = worst.duration[0];
     if (!without.empty())
       return leave_demand(without);
     hold("demand_capacity", "", worst.ratio, limits.demand_capacity, with_base.ratio);

@@ -107,11 +107,6 @@ namespace Voussoir
     return all;
   }
 
-  void JointObserver::add_extremes(Json &json) const
-  {
-    json.add("max_opening", json_of(joints.opening)).add("max_slip", json_of(joints.slip));
-  }
-
   void JointObserver::save(boost::archive::binary_oarchive &archive) const
   {
     archive << joints;

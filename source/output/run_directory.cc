@@ -20,9 +20,19 @@ namespace Voussoir
   {
     constexpr const char *marker = ".voussoir";
 
-    /** Returns true if a run writes a file of this path, relative to its directory. */
-    bool is_result(const fs::path &relative)
+    /** Returns a path relative to the directory of the run that writes it: without "motion-3" of an ensemble. */
+    fs::path in_own_run(const fs::path &relative)
     {
+      static const std::regex motion("motion-[0-9]+");
+      if (relative.empty() || !std::regex_match(relative.begin()->string(), motion))
+        return relative;
+      return std::next(relative.begin()) == relative.end() ? fs::path() : relative.lexically_relative(*relative.begin());
+    }
+
+    /** Returns true if a run writes a file of this path, relative to its directory. */
+    bool is_result(const fs::path &path)
+    {
+      const fs::path    relative = in_own_run(path);
       const std::string name = relative.filename().string(), folder = relative.parent_path().string();
       if (folder == "figures")
       {
@@ -36,7 +46,7 @@ namespace Voussoir
       if (folder == "contact/static" || folder == "contact/shaking")
         return std::regex_match(name, std::regex("problem-[0-9]{6}\\.(txt|hdf5)"));
       static const std::regex result(
-          "scene\\.prm|log\\.txt|summary\\.json|(history|energy|stages|blocks|joints|joint_history|joint_"
+          "scene\\.prm|log\\.txt|summary\\.json|(ensemble|ensemble_joints|history|energy|stages|blocks|joints|joint_history|joint_"
           "points|joint_cells|joint_pressures|spectrum|floor_spectra|faces|faces_cells|wedges|water_"
           "pressure)\\.csv|envelope\\.vtu|solution\\."
           "pvd|(solution|joints)-[0-9]{5,}\\.vtu|report\\.(html|pdf)|figures\\.log|checkpoint\\.txt|"
@@ -59,8 +69,9 @@ namespace Voussoir
       std::vector<fs::path> entries;
       const auto            is_folder = [&](const fs::path &relative)
       {
-        return (relative == "figures" || relative == "contact" || relative == "contact/static" ||
-                relative == "contact/shaking") &&
+        const fs::path of_run = in_own_run(relative);
+        return (of_run.empty() || of_run == "figures" || of_run == "contact" || of_run == "contact/static" ||
+                of_run == "contact/shaking") &&
                fs::is_directory(fs::symlink_status(directory / relative));
       };
       const std::function<void(const fs::path &)> look = [&](const fs::path &folder)

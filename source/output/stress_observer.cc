@@ -22,13 +22,22 @@ namespace Voussoir
       : run(run), joints(joints),
         tractions(*run.dam->model, run.dam->structure, known_traction(run.scene()), run.dam->initial_stress,
                   run.statics.joint_water, water_mass(*run.dam)),
-        recovery(*run.dam->model, run.dam->materials, run.scene().elements.incompatible_modes,
-                 run.scene().output.knows_tractions() ? tractions.faces : std::vector<NodeFace>(),
-                 run.scene().output.knows_tractions()),
-        tension(*run.dam->model), envelope(recovery, run.dam->initial_stress)
+        recovery(std::make_shared<StressRecovery>(
+            *run.dam->model, run.dam->materials, run.scene().elements.incompatible_modes,
+            run.scene().output.knows_tractions() ? tractions.faces : std::vector<NodeFace>(),
+            run.scene().output.knows_tractions())),
+        tension(*run.dam->model), envelope(*recovery, run.dam->initial_stress)
   {
     envelope.overstress = Overstress(run.scene().limits.static_strength(), run.dam->model->n_nodes());
     envelope.faces = FaceEnvelope(*run.dam->model);
+  }
+
+  StressObserver::StressObserver(const RunState &run, const JointRecorder &joints, const StressObserver &other)
+      : run(run), joints(joints), tractions(other.tractions), recovery(other.recovery), tension(other.tension),
+        envelope(*recovery, run.dam->initial_stress)
+  {
+    envelope.overstress = Overstress(run.scene().limits.static_strength(), run.dam->model->n_nodes());
+    envelope.faces = other.envelope.faces;
   }
 
   /** Records the stresses of this rank's nodes. Before the first rank prints stresses, they are gathered. */
@@ -57,11 +66,22 @@ namespace Voussoir
   std::vector<Stress> StressObserver::now()
   {
     std::vector<Stress> result;
-    recovery.apply(run.statics.elastic(run.integrator->state().u), tractions_now(), result);
+    recovery->apply(run.statics.elastic(run.integrator->state().u), tractions_now(), result);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (unsigned int c = 0; c < 6; ++c)
         result[i][c] += run.dam->initial_stress[i][c];
     return result;
+  }
+
+  std::vector<FieldWriter::NodalField> StressObserver::fields() const
+  {
+    std::vector<FieldWriter::NodalField> fields = {{"max_principal", envelope.maximum},
+                                                   {"min_principal", envelope.minimum}};
+    for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
+      for (const bool largest : {true, false})
+        fields.push_back({FaceEnvelope::name(k, largest),
+                          envelope.faces.field(run.dam->model->n_nodes(), k, largest)});
+    return fields;
   }
 
   void StressObserver::finish(const std::string &directory, Log &)
@@ -70,11 +90,7 @@ namespace Voussoir
       return;
     const SolidModel                    &model = *run.dam->model;
     const FieldWriter                    writer(model);
-    std::vector<FieldWriter::NodalField> fields = {{"max_principal", envelope.maximum},
-                                                   {"min_principal", envelope.minimum}};
-    for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
-      for (const bool largest : {true, false})
-        fields.push_back({FaceEnvelope::name(k, largest), envelope.faces.field(model.n_nodes(), k, largest)});
+    std::vector<FieldWriter::NodalField> fields = this->fields();
     if (water != nullptr)
       for (const FieldWriter::NodalField &field : water->fields())
         fields.push_back(field);
@@ -126,28 +142,31 @@ namespace Voussoir
           100. * tension.above(envelope, PhysicalId::downstream, f).share());
   }
 
-  void StressObserver::add_extremes(Json &json) const
+  NamedExtremes StressObserver::extremes() const
   {
     if (!is_recording())
-      return;
+      return {};
     const SolidModel &model = *run.dam->model;
-    json.add("max_tension_upstream", json_of(envelope.extreme(model, PhysicalId::upstream, true)))
-        .add("max_tension_downstream", json_of(envelope.extreme(model, PhysicalId::downstream, true)))
-        .add("max_compression", json_of(envelope.extreme(model, 0, false)))
-        .add("max_compression_away_from_base", json_of(tension.smallest_away_from_base(envelope, model)));
+    NamedExtremes     result = {
+        {"max_tension_upstream", envelope.extreme(model, PhysicalId::upstream, true)},
+        {"max_tension_downstream", envelope.extreme(model, PhysicalId::downstream, true)},
+        {"max_compression", envelope.extreme(model, 0, false)},
+        {"max_compression_away_from_base", tension.smallest_away_from_base(envelope, model)}};
     for (const auto &[name, surface] :
          {std::make_pair(std::string("max_tension_upstream"), PhysicalId::upstream),
           {"max_tension_downstream", PhysicalId::downstream}})
     {
-      const Json largest = json_of(tension.largest_away_from_base(envelope, model, surface));
-      json.add(name + "_away_from_base", largest).add(name + "_above_foot", largest); // for one release
+      const Extreme largest = tension.largest_away_from_base(envelope, model, surface);
+      result.emplace_back(name + "_away_from_base", largest);
+      result.emplace_back(name + "_above_foot", largest); // for one release
     }
     for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
       for (const auto &[face, surface] :
            {std::make_pair("upstream", PhysicalId::upstream), {"downstream", PhysicalId::downstream}})
         for (const bool largest : {true, false})
-          json.add(FaceEnvelope::name(k, largest) + "_" + face + "_away_from_base",
-                   json_of(tension.extreme_away_from_base(envelope.faces, model, surface, k, largest)));
+          result.emplace_back(FaceEnvelope::name(k, largest) + "_" + face + "_away_from_base",
+                              tension.extreme_away_from_base(envelope.faces, model, surface, k, largest));
+    return result;
   }
 
   Json StressObserver::json_of_strength() const
@@ -162,6 +181,19 @@ namespace Voussoir
       json.add(face.first, of_face.add("area", part.area).add("share", part.share()));
     }
     return json;
+  }
+
+  Assessment assess(const RunState &run, const JointObserver &joints, const StressObserver &stresses,
+                    const BlockRecorder *blocks, const std::optional<double> wedge_safety)
+  {
+    const StressesOfRun of_run{stresses.envelope, stresses.tension,
+                               run.n_steps > 0 ? run.scene().output.envelope_interval.samples : 1};
+    return {run.scene().limits,
+            *run.dam->model,
+            stresses.is_recording() ? &of_run : nullptr,
+            run.dam->structure.pairs.empty() ? nullptr : &joints.joints,
+            blocks,
+            wedge_safety};
   }
 
   void StressObserver::save(boost::archive::binary_oarchive &archive) const

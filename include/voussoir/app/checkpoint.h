@@ -25,6 +25,9 @@ namespace Voussoir
      *  checkpoint, or if the checkpoint belongs to another scene. */
     unsigned int open(Log &log);
 
+    /** Returns the content of the file that open() read, once. */
+    std::string take_payload() { return std::move(payload); }
+
     /** Restores the state that open() read, on all ranks. Throws InputError if the ground motion differs. */
     void load(RunState &run, const RunObservers &observers, RunCounters &counters, Log &log);
 

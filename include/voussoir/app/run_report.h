@@ -36,6 +36,10 @@ namespace Voussoir
   /** Writes summary.json with the warnings of the log so far. Throws WriteError. */
   void write_summary(const std::string &directory, const RunState &run, const RunObservers &observers,
                      const RunCounters &counters, const RankCounters &ranks, const Log &log);
+
+  /** Writes summary.json of an ensemble. @p ensemble: EnsembleResults::json(). Throws WriteError. */
+  void write_ensemble_summary(const std::string &directory, const RunState &run, const Json &ensemble,
+                              const RunCounters &counters, const Log &log);
 } // namespace Voussoir
 
 #endif

@@ -31,7 +31,7 @@ namespace Voussoir
     static bool lives(); ///< returns whether an object exists
 
     /** Returns "SIGINT", "SIGTERM" or "SIGHUP" if that signal was received, else a null pointer. */
-    const char *received() const;
+    static const char *received();
 
   private:
     std::array<void (*)(int), 3> before; ///< handlers that the destructor restores

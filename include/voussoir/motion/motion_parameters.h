@@ -23,6 +23,7 @@ namespace Voussoir
   };
 
   struct StationParameters;
+  struct EnsembleMember;
 
   /** Section "Motion" of an input file. */
   struct MotionParameters
@@ -38,6 +39,9 @@ namespace Voussoir
 
     std::string sequence;         ///< records or seeds, one after another; empty: one motion; see parts()
     double      rest = automatic; ///< after each part [s]; see rest_length()
+    std::string ensemble;         ///< seeds or files of motions, each for a run of its own; see members()
+    std::string ensemble_factors; ///< of each motion of the ensemble [-]; empty: 1
+    std::string ensemble_output;  ///< numbers of the motions whose tables are written; empty: none
     std::string target_file;      ///< spectrum for artificial motions and records to be matched, or empty
 
     // Source = file. Paths are relative to the directory of the input file.
@@ -98,6 +102,10 @@ namespace Voussoir
      * an element of "Sequence" is neither a seed (Source = artificial), nor one file, nor three. */
     std::vector<MotionParameters> parts() const;
 
+    /** Returns the motions of "Ensemble" for the first factor, then those for the second one, and so on. Empty without
+     * "Ensemble". Throws InputError if an entry is wrong. */
+    std::vector<EnsembleMember> members() const;
+
     /** Returns the records of "Abutments", by bank and height. Throws InputError if an entry cannot be read. */
     std::vector<StationParameters> stations() const;
 
@@ -128,9 +136,20 @@ namespace Voussoir
   private:
     void add_file_parameters(Entries &prm);
     void add_sequence_parameters(Entries &prm);
+    void add_ensemble_parameters(Entries &prm);
 
     SpectrumTable target_spectrum; ///< content of target_file
     void          add_artificial_parameters(Entries &prm);
+  };
+
+  /** Motion of "Ensemble". */
+  struct EnsembleMember
+  {
+    std::string                        name;               ///< as MotionParameters::name_of_part()
+    double                             factor = 1.;        ///< of "Ensemble factors" [-]
+    MotionParameters                   motion;             ///< this motion alone
+    std::map<std::string, std::string> entries;            ///< "Section/Entry" and value that make it the only motion
+    bool                               has_output = false; ///< "Ensemble output" contains its number
   };
 
   /** Record of "Abutments". */

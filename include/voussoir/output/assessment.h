@@ -59,6 +59,13 @@ namespace Voussoir
      * evaluated. Empty: the input file has no limits. */
     std::string in_words() const;
 
+    /** Returns the evaluated limits. */
+    const std::vector<Verdict> &all() const { return verdicts; }
+
+    /** Returns the longest duration for which the stress at a node of a face away from the base exceeds the static
+     * tensile strength [s]. Empty: there is no strength. */
+    std::optional<double> overstress_seconds() const { return longest; }
+
   private:
     void hold(const std::string &name, const std::string &unit, double value, double limit,
               std::optional<double> with_base = {});
@@ -76,6 +83,7 @@ namespace Voussoir
     const LimitParameters                            limits;
     std::vector<Verdict>                             verdicts;
     std::vector<std::pair<std::string, std::string>> unevaluated; ///< limits and reasons
+    std::optional<double>                            longest; ///< see overstress_seconds()
     std::optional<Json>                              overstress, waterstop, residual, keys;
   };
 

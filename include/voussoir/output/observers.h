@@ -13,8 +13,13 @@
 #include <voussoir/output/stability_monitor.h>
 #include <voussoir/output/table_columns.h>
 
+#include <optional>
+
 namespace Voussoir
 {
+  /** Extremes of a run by their names in summary.json. */
+  using NamedExtremes = std::vector<std::pair<std::string, Extreme>>;
+
   /** Observer for instability: record() throws ComputationError if the run has become unstable. */
   class StabilityObserver : public Observer
   {
@@ -120,8 +125,8 @@ namespace Voussoir
     void save(boost::archive::binary_oarchive &archive) const override;
     void load(boost::archive::binary_iarchive &archive) override;
 
-    /** Adds the largest opening and slip [m] to @p json, "extremes" of summary.json. */
-    void add_extremes(Json &json) const;
+    /** Returns the largest opening and slip [m]: members of "extremes" in summary.json. */
+    NamedExtremes extremes() const { return {{"max_opening", joints.opening}, {"max_slip", joints.slip}}; }
 
     /** Returns "motion_parts" of summary.json: source, times [s], and largest opening and slip of each joint
      * after the rest [m]. */
@@ -141,6 +146,9 @@ namespace Voussoir
     /** @p joints: recorder of the contact pressures for envelope.vtu. Both arguments must outlive the observer. */
     StressObserver(const RunState &run, const JointRecorder &joints);
 
+    /** Observer of another motion of the same dam, which shares the operator of @p other. */
+    StressObserver(const RunState &run, const JointRecorder &joints, const StressObserver &other);
+
     const WaterObserver *water = nullptr; ///< recorder of the dynamic pressures for the envelope; null: none
 
     void start() override { follow(); }
@@ -157,8 +165,11 @@ namespace Voussoir
     /** Returns true if stresses are recorded. */
     bool is_recording() const { return run.scene().output.envelope_interval.samples > 0; }
 
-    /** Adds the largest principal stresses [Pa] to @p json, "extremes" of summary.json. */
-    void add_extremes(Json &json) const;
+    /** Returns the largest stresses [Pa]: members of "extremes" in summary.json. Empty if no stresses are recorded. */
+    NamedExtremes extremes() const;
+
+    /** Returns the envelope of the stresses at the nodes of the model [Pa]. */
+    std::vector<FieldWriter::NodalField> fields() const;
 
     /** Returns "tension_above_strength" of summary.json: area of each face with a maximum principal stress
      * above the tensile strength [m^2]. */
@@ -177,12 +188,20 @@ namespace Voussoir
     const JointRecorder &joints;
     Tractions            tractions;
 
+    const std::shared_ptr<const StressRecovery> recovery; ///< stresses at the nodes from displacements
+
   public:
-    StressRecovery   recovery;     ///< stresses at the nodes from displacements
-    FaceTension      tension;      ///< evaluation of the envelope
-    EnvelopeRecorder envelope;     ///< largest and smallest principal stresses over time
-    double           seconds = 0.; ///< wall time of follow(), summed over all calls [s]
+    const FaceTension tension;      ///< evaluation of the envelope
+    EnvelopeRecorder  envelope;     ///< largest and smallest principal stresses over time
+    double            seconds = 0.; ///< wall time of follow(), summed over all calls [s]
   };
+
+  class Assessment;
+
+  /** Returns the assessment of the results so far. @p blocks: forces at the base, or null. @p wedge_safety: see
+   * Assessment. */
+  Assessment assess(const RunState &run, const JointObserver &joints, const StressObserver &stresses,
+                    const BlockRecorder *blocks = nullptr, std::optional<double> wedge_safety = {});
 
   /** Forces of the foundation on the bases of the monoliths (blocks.csv). */
   class BlockObserver : public Observer

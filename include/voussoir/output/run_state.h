@@ -16,7 +16,7 @@ namespace Voussoir
    *  state; observers only read the state. */
   struct RunState
   {
-    std::unique_ptr<Dam>        dam;        ///< the dam with its foundation
+    std::shared_ptr<Dam>        dam;        ///< the dam with its foundation
     GroundMotion                motion;     ///< ground motion, with the time step of the dam
     StaticState                 statics;    ///< static state before the earthquake
     std::unique_ptr<Integrator> integrator; ///< time integration of the dam; see start()

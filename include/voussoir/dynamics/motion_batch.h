@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#ifndef voussoir_motion_batch_h
+#define voussoir_motion_batch_h
+
+#include <voussoir/dynamics/batch_view.h>
+#include <voussoir/dynamics/integrator.h>
+
+#include <deal.II/base/aligned_vector.h>
+
+#include <memory>
+
+namespace Voussoir
+{
+  /** Structure and static state for batches of ground motions, in single precision. Displacements are increments from the
+   * static state, whose joint forces are the only loads besides inertia. */
+  class BatchModel
+  {
+  public:
+    /** Returns the reason why a structure has no batches, for a sentence after "because", or an empty text. */
+    static std::string why_not(const Structure &structure, const JointLaws &laws);
+
+    /** @param structure, laws as in Leapfrog, which batches agree with; why_not() is empty. The structure must outlive
+     * the object.
+     * @param dt time step of MotionBatch::advance() [s]
+     * @param n_steps number of steps h in dt
+     * @param inertia loads of a unit acceleration of the base in x, y and z [kg]
+     * @param u, load static displacement [m] and constant loads [N]
+     * @param closed jumps at which the pairs are closed [m] */
+    BatchModel(const Structure &structure, const JointLaws &laws, double dt, unsigned int n_steps,
+               const std::array<Unknowns, 3> &inertia, const Unknowns &u, const Unknowns &load, const Unknowns &closed);
+
+    BatchView view() const; ///< arrays for the kernels
+
+    const Structure   &structure;
+    const double       dt;
+    const unsigned int n_steps;
+    const Unknowns     u_static, closed;
+
+  private:
+    void add_stiffness();
+    void add_nodes(const std::array<Unknowns, 3> &inertia, const Unknowns &load);
+    void add_pair(const Pair &pair, const JointLaw &law, const std::vector<Matrix3> &inverse_mass);
+
+    BatchView                  sizes; ///< without arrays
+    std::vector<unsigned int>  body, column;
+    std::vector<std::size_t>   row;
+    std::vector<float>         block, diagonal, inverse_mass, residual, of_ground;
+    std::vector<unsigned char> is_full;
+    std::vector<BatchPair>     pairs;
+  };
+
+  /** Explicit time integration of several ground motions of one structure with the leapfrog rule of Leapfrog: a lane of
+   * each vector of the processor is a motion. All lanes share each coefficient of the stiffness matrix that the processor
+   * reads. The result of a lane does not depend on the motions of the other lanes. */
+  class MotionBatch
+  {
+  public:
+    /** Returns the number of lanes on this processor: 16 with AVX-512, 8 with AVX2, otherwise 4. */
+    static unsigned int n_lanes();
+
+    /** Starts all lanes in the static state. @p model must outlive the object. */
+    explicit MotionBatch(const BatchModel &model);
+
+    /** Advances all lanes by BatchModel::dt. The accelerations of the base at the start and at the end of the step
+     * [m/s^2] have one entry per lane. */
+    void advance(const std::vector<Vector3> &before, const std::vector<Vector3> &after);
+
+    /** Returns the state of a lane: displacement, velocity at the middle of the last step h, mean joint forces of the last
+     * time step and works. The kinetic energy is that of kinetic_energy(). */
+    void read(unsigned int lane, DynamicState &state) const;
+
+    double kinetic_energy(unsigned int lane) const; ///< [J]
+
+    double memory() const; ///< [bytes]
+
+  private:
+    const BatchModel                   &model;
+    const BatchView                     view;
+    const unsigned int                  lanes;
+    dealii::AlignedVector<float>        u, v, w, f, d, gap, moved, impulse;
+    std::vector<std::array<double, 16>> works; ///< BatchState::works
+    double                              time = 0.;
+  };
+
+  /** Lane of a batch as the state of a run: for observers of results. */
+  class LaneIntegrator : public Integrator
+  {
+  public:
+    /** Both arguments and the laws must outlive the object. */
+    LaneIntegrator(const MotionBatch &batch, const BatchModel &model, const JointLaws &laws, unsigned int lane);
+
+    /** Reads the state of the lane. @p with_energy: also the kinetic energy. */
+    void read(bool with_energy);
+
+    ContactResult                 advance(const Unknowns &, const Vector3 &) override;
+    const std::vector<PairState> &pair_states() const override { return states; }
+    SystemTimes                   times() const override { return {}; }
+    double                        memory() const override { return 0.; }
+    double weight_of_end() const override { return .5 * (model.n_steps - 1) / model.n_steps; }
+
+  private:
+    const MotionBatch     &batch;
+    const BatchModel      &model;
+    const unsigned int     lane;
+    std::vector<PairState> states;
+  };
+} // namespace Voussoir
+
+#endif
