@@ -6,7 +6,10 @@
 #include <voussoir/output/archive.h>
 
 #include <algorithm>
+#include <ctime>
+#include <exception>
 #include <filesystem>
+#include <omp.h>
 #include <sstream>
 
 namespace Voussoir
@@ -53,7 +56,14 @@ namespace Voussoir
     begin_files();
     loop_clock = Stopwatch();
     n_before = std::count(is_done.begin(), is_done.end(), true);
-    run_one_by_one();
+    const double before = double(std::clock()) / CLOCKS_PER_SEC;
+    find_static_state();
+    if (const std::string reason = why_no_batch(state); reason.empty())
+      run_batches();
+    else
+      run_one_by_one(reason);
+    counters.shaking = loop_clock.seconds() - counters.statics;
+    counters.shaking_cpu = double(std::clock()) / CLOCKS_PER_SEC - before;
     finish();
   }
 
@@ -113,11 +123,8 @@ namespace Voussoir
     }
     catch (const Interrupted &)
     {
-      const std::size_t n_done = std::count(is_done.begin(), is_done.end(), true);
-      throw Interrupted(InterruptGuard::received() + std::string(" was received in motion ") +
-                        std::to_string(number + 1) + ". " + std::to_string(n_done) + " of " +
-                        std::to_string(members.size()) + " motions are complete. Continue with the same command and --resume" +
-                        (options.overwrite ? " instead of --overwrite." : "."));
+      save(); // also if no motion is complete: the motion has a checkpoint of its own
+      throw_interrupted();
     }
     catch (const WriteError &)
     {
@@ -153,9 +160,9 @@ namespace Voussoir
     results.motions[number] = std::move(result);
   }
 
-  void EnsembleRun::run_one_by_one()
+  void EnsembleRun::run_one_by_one(const std::string &reason)
   {
-    log.line("\nEnsemble  %zu motions, one after another", members.size());
+    log.line("\nEnsemble  %zu motions, one after another, because %s", members.size(), reason.c_str());
     for (std::size_t k = 0; k < members.size(); ++k)
       if (!is_done[k])
       {
@@ -163,6 +170,84 @@ namespace Voussoir
         run_one(k, members[k].has_output);
         save();
       }
+  }
+
+  /** Runs a batch. @p numbers: of its motions. @p is_first: prints the progress. */
+  void EnsembleRun::run_batch(BatchRun &batch, const std::vector<std::size_t> &numbers, const bool is_first)
+  {
+    constexpr double report_interval = 10.; // [s]
+    for (unsigned int step = 0; step < batch.n_steps(); ++step)
+    {
+      if (InterruptGuard::received() != nullptr)
+        return;
+      batch.advance();
+      if (is_first && report_clock.seconds() > report_interval)
+      {
+        report_clock = Stopwatch();
+        log.line("          t = %.2f s of %.2f s", (step + 1) * state.motion.dt, batch.n_steps() * state.motion.dt);
+      }
+    }
+#pragma omp critical(ensemble_result)
+    {
+      for (std::size_t k = 0; k < numbers.size(); ++k)
+        add(numbers[k], batch.result(k));
+      save();
+    }
+  }
+
+  void EnsembleRun::run_batches()
+  {
+    const BatchModel     model(state.dam->structure, state.dam->layout.laws, state.motion.dt, scene.n_explicit,
+                               state.dam->inertia, state.statics.u, state.statics.constant_load(),
+                               state.statics.closed);
+    const JointObserver  joints(state);
+    const StressObserver stresses(state, joints.joints);
+    lanes = MotionBatch::n_lanes();
+    std::vector<std::vector<std::size_t>> batches;
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (!is_done[k])
+      {
+        if (batches.empty() || batches.back().size() == lanes)
+          batches.emplace_back();
+        batches.back().push_back(k);
+      }
+    log.line("\nEnsemble  %zu motions in batches of %u, %zu of %zu batches left", members.size(), lanes, batches.size(),
+             (members.size() + lanes - 1) / lanes);
+    std::exception_ptr error;
+#pragma omp parallel for schedule(dynamic) if (int(batches.size()) >= omp_get_max_threads())
+    for (std::size_t b = 0; b < batches.size(); ++b)
+      try
+      {
+        std::vector<const GroundMotion *> motions;
+        for (const std::size_t number : batches[b])
+          motions.push_back(&all_motions[number]);
+        BatchRun batch(state, model, stresses, motions);
+        run_batch(batch, batches[b], b == 0);
+      }
+      catch (...)
+      {
+#pragma omp critical(ensemble_result)
+        error = std::current_exception();
+      }
+    if (error)
+      std::rethrow_exception(error);
+    if (InterruptGuard::received() != nullptr)
+    {
+      save();
+      throw_interrupted();
+    }
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (members[k].has_output)
+        run_one(k, true);
+  }
+
+  /** Throws Interrupted with the number of complete motions. */
+  void EnsembleRun::throw_interrupted() const
+  {
+    const std::size_t n_done = std::count(is_done.begin(), is_done.end(), true);
+    throw Interrupted(InterruptGuard::received() + std::string(" was received when ") + std::to_string(n_done) +
+                      " of " + std::to_string(members.size()) + " motions were complete. Continue with the same command and "
+                      "--resume" + (options.overwrite ? " instead of --overwrite." : "."));
   }
 
   void EnsembleRun::finish()

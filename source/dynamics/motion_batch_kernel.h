@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Kernel of MotionBatch for vectors of `lanes` floats. motion_batch.cc includes this file for each set of instructions, in a
-// namespace with `lanes` and square_root().
+// namespace with the constant `lanes`, and with the macro VOUSSOIR_SQUARE_ROOT.
 
 using Vector = float __attribute__((vector_size(4 * lanes), may_alias));
 using Mask = int __attribute__((vector_size(4 * lanes)));
@@ -15,6 +15,11 @@ VOUSSOIR_INLINE Vector larger(const Vector a, const Vector b)
 VOUSSOIR_INLINE Vector smaller(const Vector a, const Vector b)
 {
   return a < b ? a : b;
+}
+
+VOUSSOIR_INLINE Vector square_root(const Vector a)
+{
+  return VOUSSOIR_SQUARE_ROOT(a);
 }
 
 VOUSSOIR_INLINE bool any(const Mask mask)
@@ -281,3 +286,4 @@ inline void advance_any(const BatchView &m, const BatchState &state)
 }
 
 #undef VOUSSOIR_INLINE
+#undef VOUSSOIR_SQUARE_ROOT

@@ -2,8 +2,8 @@
 #ifndef voussoir_ensemble_h
 #define voussoir_ensemble_h
 
+#include <voussoir/app/batch_run.h>
 #include <voussoir/app/run_setup.h>
-#include <voussoir/output/ensemble_results.h>
 
 #include <functional>
 
@@ -29,11 +29,13 @@ namespace Voussoir
     void        load();
     void        save();
     void        begin_files();
-    void        run_one_by_one();
+    void        run_one_by_one(const std::string &reason);
     void        run_batches();
     void        run_one(std::size_t number, bool keep_tables);
+    void        run_batch(BatchRun &batch, const std::vector<std::size_t> &numbers, bool is_first);
     void        add(std::size_t number, MotionResult result);
     void        finish();
+    [[noreturn]] void throw_interrupted() const;
     std::string directory_of(std::size_t number) const;
 
     const SceneOf                     scene_of;
@@ -41,7 +43,7 @@ namespace Voussoir
     EnsembleResults                   results;
     std::vector<char>                 is_done; ///< of each motion
     unsigned int                      lanes = 1;
-    Stopwatch                         loop_clock;
+    Stopwatch                         loop_clock, report_clock;
     std::size_t                       n_before = 0; ///< motions that were complete at the start
   };
 } // namespace Voussoir

@@ -78,7 +78,7 @@ namespace Voussoir
     const BatchView                     view;
     const unsigned int                  lanes;
     dealii::AlignedVector<float>        u, v, w, f, d, gap, moved, impulse;
-    std::vector<std::array<double, 16>> works; ///< BatchState::works
+    double                              works[4][16] = {}; ///< see BatchState
     double                              time = 0.;
   };
 
@@ -86,8 +86,9 @@ namespace Voussoir
   class LaneIntegrator : public Integrator
   {
   public:
-    /** Both arguments and the laws must outlive the object. */
-    LaneIntegrator(const MotionBatch &batch, const BatchModel &model, const JointLaws &laws, unsigned int lane);
+    /** @p force: joint forces of the static state [N]. The other arguments must outlive the object. */
+    LaneIntegrator(const MotionBatch &batch, const BatchModel &model, const JointLaws &laws, const Unknowns &force,
+                   unsigned int lane);
 
     /** Reads the state of the lane. @p with_energy: also the kinetic energy. */
     void read(bool with_energy);

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/app/batch_run.h>
+#include <voussoir/base/error.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace Voussoir
+{
+  namespace
+  {
+    /** Number of time steps between two energy balances. */
+    constexpr unsigned int steps_between_balances = 32;
+
+    /** Limit of the error of the energy balance in single precision, relative to the largest energy [-]. */
+    constexpr double largest_error_of_batch = 1e-3;
+  } // namespace
+
+  std::string why_no_batch(const RunState &run)
+  {
+    const Scene            &scene = run.scene();
+    const UpliftParameters &uplift = scene.loads.uplift;
+    if (!scene.is_explicit())
+      return "\"Dynamics/Scheme\" is not explicit";
+    if (scene.foundation.model != "rigid")
+      return "\"Foundation/Model\" is not rigid";
+    if (run.dam->water || (uplift.acts() && uplift.in_earthquake != "unchanged"))
+      return "the water reacts to the motion";
+    if (!run.dam->forces.empty() || !scene.initial_velocities().empty() || run.n_steps == 0)
+      return "the motion of the base is not the only load in time";
+    if (scene.limits.sliding_safety > 0. || !scene.limits.wedges.empty())
+      return "the limits include forces on the base";
+    return BatchModel::why_not(run.dam->structure, run.dam->layout.laws);
+  }
+
+  /** State and observers of a motion. */
+  struct BatchRun::Lane
+  {
+    RunState                         run;
+    LaneIntegrator                  *integrator; ///< RunState::integrator
+    std::optional<JointObserver>     joints;
+    std::optional<StressObserver>    stresses;
+    std::optional<StabilityObserver> stability;
+    std::string                      failure;
+    double                           imbalance = 0.; ///< largest so far, relative to the largest energy [-]
+
+    Lane(const RunState &start, const BatchModel &model, const StressObserver &like, const MotionBatch &batch,
+         const GroundMotion &motion, const unsigned int lane)
+    {
+      run.dam = start.dam;
+      run.motion = motion;
+      run.statics = start.statics;
+      run.n_steps = motion.acceleration.size() - 1;
+      run.pairs_at_start = start.pairs_at_start;
+      auto own = std::make_unique<LaneIntegrator>(batch, model, run.dam->layout.laws, run.statics.force, lane);
+      integrator = own.get();
+      run.integrator = std::move(own);
+      joints.emplace(run);
+      stresses.emplace(run, joints->joints, like);
+      stability.emplace(run);
+      stresses->start();
+      joints->record();
+    }
+
+    bool is_done() const { return run.is_last() || !failure.empty(); }
+
+    /** Records the state after a step. */
+    void follow()
+    {
+      const Unknowns v_before = integrator->state().v;
+      const bool     is_balanced = (run.step + 1) % steps_between_balances == 0 || run.step + 1 == run.n_steps;
+      integrator->read(is_balanced);
+      run.acceleration = mean_acceleration(v_before, integrator->state().v, run.motion.dt,
+                                           run.ground_acceleration(run.step), run.ground_acceleration(run.step + 1),
+                                           integrator->weight_of_end());
+      ++run.step;
+      if (is_balanced)
+        imbalance = std::max(imbalance, integrator->energy_error());
+      if (!std::isfinite(integrator->state().energy.input + integrator->state().energy.kinetic))
+        failure = "the displacements are not finite at t = " + number_text(integrator->state().time) + " s";
+      else if (imbalance > largest_error_of_batch)
+        failure = "the energy balance has an error of " + number_text(imbalance) + " at t = " +
+                  number_text(integrator->state().time) + " s";
+      if (!failure.empty())
+        return;
+      try
+      {
+        stresses->follow();
+        joints->record();
+        stability->record();
+      }
+      catch (const ComputationError &error)
+      {
+        failure = error.what();
+      }
+      if (run.is_last())
+        stresses->gather_on_root();
+    }
+  };
+
+  BatchRun::BatchRun(const RunState &start, const BatchModel &model, const StressObserver &stresses,
+                     const std::vector<const GroundMotion *> &motions)
+      : batch(model), dt(model.dt)
+  {
+    for (const GroundMotion *motion : motions)
+    {
+      lanes.push_back(std::make_unique<Lane>(start, model, stresses, batch, *motion, lanes.size()));
+      most_steps = std::max(most_steps, lanes.back()->run.n_steps);
+    }
+  }
+
+  BatchRun::~BatchRun() = default;
+
+  void BatchRun::advance()
+  {
+    std::vector<Vector3> before(MotionBatch::n_lanes()), after(MotionBatch::n_lanes());
+    for (std::size_t k = 0; k < lanes.size(); ++k)
+      if (!lanes[k]->is_done())
+      {
+        before[k] = lanes[k]->run.motion.sample(step);
+        after[k] = lanes[k]->run.motion.sample(step + 1);
+      }
+    batch.advance(before, after);
+    ++step;
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t k = 0; k < lanes.size(); ++k)
+      if (!lanes[k]->is_done())
+        lanes[k]->follow();
+  }
+
+  MotionResult BatchRun::result(const std::size_t motion) const
+  {
+    const Lane &lane = *lanes[motion];
+    if (lane.failure.empty())
+      return result_of(lane.run, *lane.joints, *lane.stresses);
+    MotionResult result;
+    result.failure = lane.failure;
+    return result;
+  }
+} // namespace Voussoir
