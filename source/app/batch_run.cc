@@ -12,7 +12,7 @@ namespace Voussoir
     /** Number of time steps between two energy balances. */
     constexpr unsigned int steps_between_balances = 32;
 
-    /** Limit of the error of the energy balance in single precision, relative to the largest energy [-]. */
+    /** Limit of the error of the energy balance in single precision, relative to the largest energy of a motion [-]. */
     constexpr double largest_error_of_batch = 1e-3;
   } // namespace
 
@@ -42,7 +42,7 @@ namespace Voussoir
     std::optional<StressObserver>    stresses;
     std::optional<StabilityObserver> stability;
     std::string                      failure;
-    double                           imbalance = 0.; ///< largest so far, relative to the largest energy [-]
+    double                           imbalance = 0.; ///< largest so far [J]
 
     Lane(const RunState &start, const BatchModel &model, const StressObserver &like, const MotionBatch &batch,
          const GroundMotion &motion, const unsigned int lane)
@@ -74,13 +74,13 @@ namespace Voussoir
                                            run.ground_acceleration(run.step), run.ground_acceleration(run.step + 1),
                                            integrator->weight_of_end());
       ++run.step;
+      const Energy &energy = integrator->state().energy;
       if (is_balanced)
-        imbalance = std::max(imbalance, integrator->energy_error());
-      if (!std::isfinite(integrator->state().energy.input + integrator->state().energy.kinetic))
+        imbalance = std::max(imbalance, std::abs(energy.balance(integrator->initial_energy())));
+      if (!std::isfinite(energy.input + energy.kinetic))
         failure = "the displacements are not finite at t = " + number_text(integrator->state().time) + " s";
-      else if (imbalance > largest_error_of_batch)
-        failure = "the energy balance has an error of " + number_text(imbalance) + " at t = " +
-                  number_text(integrator->state().time) + " s";
+      else if (run.is_last() && imbalance > largest_error_of_batch * run.largest_energy())
+        failure = "the energy balance has an error of " + number_text(imbalance / run.largest_energy());
       if (!failure.empty())
         return;
       try
