@@ -15,6 +15,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <filesystem>
 #include <iostream>
 
@@ -43,8 +44,7 @@ namespace Voussoir
     }
     if (options.resume)
       state.start_step = checkpoint.open(log);
-    for (const MotionParameters &motion : motions)
-      all_motions.push_back(motion_of_run(motion));
+    make_motions(motions);
     read_input();
     report_setup(state, options.validate && !options.json, log);
     if (options.validate)
@@ -181,6 +181,26 @@ namespace Voussoir
     return make_motion(parameters, scene.directory)
         .refined(scene.steps_per_sample)
         .scaled(scene.loads.factor("earthquake"));
+  }
+
+  /** Creates all motions. Throws the error of the first one that is wrong. */
+  void RunSetup::make_motions(const std::vector<MotionParameters> &motions)
+  {
+    all_motions.resize(motions.size());
+    std::vector<std::exception_ptr> errors(motions.size());
+#pragma omp parallel for schedule(dynamic)
+    for (std::size_t k = 0; k < motions.size(); ++k)
+      try
+      {
+        all_motions[k] = motion_of_run(motions[k]);
+      }
+      catch (...)
+      {
+        errors[k] = std::current_exception();
+      }
+    for (const std::exception_ptr &error : errors)
+      if (error)
+        std::rethrow_exception(error);
   }
 
   /** Reads the files of the scene and creates the dam. Throws InputError for invalid input. */

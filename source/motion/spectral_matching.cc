@@ -3,7 +3,6 @@
 #include <voussoir/motion/spectral_matching.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -13,35 +12,70 @@ namespace Voussoir
   {
     using Vector = std::vector<double>;
 
-    double dot(const Vector &a, const Vector &b)
+#if defined(__x86_64__) && defined(__GNUC__)
+    // AVX without fused operations: the results do not depend on the processor.
+#define VOUSSOIR_WITH_AVX __attribute__((target_clones("avx", "default")))
+#else
+#define VOUSSOIR_WITH_AVX
+#endif
+
+    using Four = double __attribute__((vector_size(32), aligned(8), may_alias)); ///< four independent sums
+
+    /** Adds the products of four numbers of two vectors @p a and four vectors @p b to @p sum, up to @p size, a multiple
+     * of four. Each number is read once for several products. */
+    VOUSSOIR_WITH_AVX void add_products(const double *const *a, const double *const *b, const std::size_t size, Four *sum)
     {
-      // Four independent sums, for speed.
-      double            sum[4] = {0., 0., 0., 0.};
-      const std::size_t n = a.size() / 4 * 4;
-      for (std::size_t i = 0; i < n; i += 4)
-        for (unsigned int j = 0; j < 4; ++j)
-          sum[j] += a[i + j] * b[i + j];
-      for (std::size_t i = n; i < a.size(); ++i)
-        sum[0] += a[i] * b[i];
-      return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+      Four s0 = {}, s1 = {}, s2 = {}, s3 = {}, s4 = {}, s5 = {}, s6 = {}, s7 = {};
+      for (std::size_t i = 0; i < size; i += 4)
+      {
+        const Four x = *reinterpret_cast<const Four *>(a[0] + i), y = *reinterpret_cast<const Four *>(a[1] + i),
+                   b0 = *reinterpret_cast<const Four *>(b[0] + i), b1 = *reinterpret_cast<const Four *>(b[1] + i),
+                   b2 = *reinterpret_cast<const Four *>(b[2] + i), b3 = *reinterpret_cast<const Four *>(b[3] + i);
+        s0 += x * b0, s1 += x * b1, s2 += x * b2, s3 += x * b3;
+        s4 += y * b0, s5 += y * b1, s6 += y * b2, s7 += y * b3;
+      }
+      sum[0] = s0, sum[1] = s1, sum[2] = s2, sum[3] = s3, sum[4] = s4, sum[5] = s5, sum[6] = s6, sum[7] = s7;
     }
 
-    /** Returns dot() of @p a and each of four vectors, bitwise identical to dot(). The values of @p a are
-     * read only once. */
-    std::array<double, 4> dots(const Vector &a, const Vector *b)
+    /** Returns the product of two vectors from its sums up to the last multiple of four. */
+    double product(const Four &sum, const Vector &a, const Vector &b)
     {
-      double            sum[4][4] = {};
-      const std::size_t n = a.size() / 4 * 4;
-      for (std::size_t i = 0; i < n; i += 4)
-        for (unsigned int d = 0; d < 4; ++d)
-          for (unsigned int j = 0; j < 4; ++j)
-            sum[d][j] += a[i + j] * b[d][i + j];
-      std::array<double, 4> result;
-      for (unsigned int d = 0; d < 4; ++d)
+      double first = sum[0];
+      for (std::size_t i = a.size() / 4 * 4; i < a.size(); ++i)
+        first += a[i] * b[i];
+      return (first + sum[1]) + (sum[2] + sum[3]);
+    }
+
+    double dot(const Vector &a, const Vector &b)
+    {
+      Four sum = {};
+      for (std::size_t i = 0; i + 4 <= a.size(); i += 4)
+        for (unsigned int j = 0; j < 4; ++j)
+          sum[j] += a[i + j] * b[i + j];
+      return product(sum, a, b);
+    }
+
+    /** Returns the products of all vectors with all earlier ones, each as by dot(). */
+    std::vector<Vector> products_of(const std::vector<Vector> &vectors)
+    {
+      const std::size_t   n = vectors.size(), even = n / 2 * 2;
+      std::vector<Vector> result(n, Vector(n));
+      for (std::size_t i = 0; i < n; i += 2)
       {
-        for (std::size_t i = n; i < a.size(); ++i)
-          sum[d][0] += a[i] * b[d][i];
-        result[d] = (sum[d][0] + sum[d][1]) + (sum[d][2] + sum[d][3]);
+        std::size_t j = 0;
+        for (; i < even && j + 4 <= i; j += 4)
+        {
+          const double *a[2] = {vectors[i].data(), vectors[i + 1].data()}, *b[4];
+          for (unsigned int d = 0; d < 4; ++d)
+            b[d] = vectors[j + d].data();
+          Four sums[8];
+          add_products(a, b, vectors[i].size() / 4 * 4, sums);
+          for (unsigned int d = 0; d < 8; ++d)
+            result[i + d / 4][j + d % 4] = product(sums[d], vectors[i + d / 4], vectors[j + d % 4]);
+        }
+        for (std::size_t row = i; row < std::min(i + 2, n); ++row)
+          for (std::size_t k = j; k < row; ++k)
+            result[row][k] = dot(vectors[row], vectors[k]);
       }
       return result;
     }
@@ -102,19 +136,9 @@ namespace Voussoir
       /** Returns the smallest change, in the norm weighted by 1/envelope, that satisfies the conditions. */
       Vector least_change() const
       {
-        std::vector<Vector> gram(gradients.size(), Vector(gradients.size()));
+        std::vector<Vector> gram = products_of(gradients);
         for (std::size_t i = 0; i < gradients.size(); ++i)
-        {
-          std::size_t j = 0;
-          for (; j + 4 <= i; j += 4)
-          {
-            const std::array<double, 4> four = dots(gradients[i], &gradients[j]);
-            std::copy(four.begin(), four.end(), gram[i].begin() + j);
-          }
-          for (; j < i; ++j)
-            gram[i][j] = dot(gradients[i], gradients[j]);
           gram[i][i] = 1. + slacks[i];
-        }
         const Vector multipliers = solve(std::move(gram), values);
 
         Vector change(root_weight.size(), 0.);

@@ -202,8 +202,7 @@ namespace Voussoir
     {
       for (unsigned int c = 0; c < 6; ++c)
         stress[i][c] += initial[i][c];
-      const auto bounds = bounds_of_principal_stresses(stress[i]);
-      if (bounds[0] <= maximum[i] && bounds[1] >= minimum[i] && !overstress.counts(bounds[0]))
+      if (!exceeds(stress[i], std::min(maximum[i], overstress.lowest_level()), minimum[i]))
         continue;
       const auto p = principal_stresses(stress[i]);
       overstress.add(i, p[0]);

@@ -16,37 +16,64 @@ namespace Voussoir
 
   namespace
   {
-    /** Mean stress, diagonal of the deviator, and p: the principal stresses lie between mean - 2p and mean + 2p. */
+    /** Mean stress, diagonal of the deviator, and p^2: the principal stresses lie between mean - 2p and mean + 2p. */
     struct Invariants
     {
       explicit Invariants(const Stress &s)
           : mean((double(s[0]) + s[1] + s[2]) / 3.), x(s[0] - mean), y(s[1] - mean), z(s[2] - mean)
       {
         const double shear = double(s[3]) * s[3] + double(s[4]) * s[4] + double(s[5]) * s[5];
-        p = std::sqrt((x * x + y * y + z * z + 2. * shear) / 6.);
+        p_square = (x * x + y * y + z * z + 2. * shear) / 6.;
       }
-      double mean, x, y, z, p;
+      double determinant(const Stress &s) const ///< of the deviator
+      {
+        return x * (y * z - double(s[4]) * s[4]) - s[3] * (double(s[3]) * z - double(s[4]) * s[5]) +
+               s[5] * (double(s[3]) * s[4] - y * s[5]);
+      }
+      double mean, x, y, z, p_square;
     };
   } // namespace
 
-  std::array<float, 2> bounds_of_principal_stresses(const Stress &s)
+  namespace
+  {
+    /** Returns cos(2/3 acos(s)) for 0 <= s <= 1: the polynomial through its values at Chebyshev points, with an error of
+     * 2e-12. With s = sqrt((1 + r)/2) this is cos(acos(r)/3). */
+    double cosine_of_third(const double s)
+    {
+      constexpr double c[] = {.50000000000184919,   .5773502685621289,    -.11111107550248116,   .053457555912007897,
+                              -.032912299460351721, .02280012350716136,   -.016750073852596324,  .012328578895090456,
+                              -.0084089123624231446, .0048143851878839211, -.0020621250024546824, .00056717715754875386,
+                              -7.3603044374673e-05};
+      double           sum = c[12];
+      for (unsigned int k = 12; k-- > 0;)
+        sum = c[k] + s * sum;
+      return sum;
+    }
+  } // namespace
+
+  bool exceeds(const Stress &s, const float high, const float low)
   {
     const Invariants of(s);
-    return {{float(of.mean + 2. * of.p), float(of.mean - 2. * of.p)}};
+    const double     a = high - of.mean, b = of.mean - low;
+    if (a >= 0. && b >= 0. && std::min(a, b) * std::min(a, b) >= 4. * of.p_square)
+      return false;
+    const double det = of.determinant(s);
+    // The characteristic polynomial of the deviator increases beyond its largest root.
+    const auto is_beyond = [&](const double m, const double det)
+    { return m >= 0. && m * m >= of.p_square && m * (m * m - 3. * of.p_square) >= det; };
+    return !is_beyond(a, det) || !is_beyond(b, -det);
   }
 
   std::array<float, 2> principal_stresses(const Stress &s)
   {
     // Trigonometric solution of the characteristic equation of the deviator.
     const Invariants of(s);
-    const double     mean = of.mean, x = of.x, y = of.y, z = of.z, p = of.p;
+    const double     mean = of.mean, p = std::sqrt(of.p_square);
     if (p <= 1e-30)
       return {{float(mean), float(mean)}};
-    const double det = x * (y * z - double(s[4]) * s[4]) - s[3] * (double(s[3]) * z - double(s[4]) * s[5]) +
-                       s[5] * (double(s[3]) * s[4] - y * s[5]);
-    const double angle = std::acos(std::clamp(det / (2. * p * p * p), -1., 1.)) / 3.;
-    return {
-        {float(mean + 2. * p * std::cos(angle)), float(mean + 2. * p * std::cos(angle + 2. * M_PI / 3.))}};
+    const double r = std::clamp(of.determinant(s) / (2. * p * p * p), -1., 1.);
+    return {{float(mean + 2. * p * cosine_of_third(std::sqrt(.5 + .5 * r))),
+             float(mean - 2. * p * cosine_of_third(std::sqrt(.5 - .5 * r)))}};
   }
 
   StressRecovery::StressRecovery(const SolidModel &model, const std::vector<Material> &materials,
@@ -229,8 +256,9 @@ namespace Voussoir
     }
     const auto face = [this](const std::size_t node) -> std::size_t
     { return std::lower_bound(node_of_face.begin(), node_of_face.end(), node) - node_of_face.begin(); };
+    const std::size_t first_face = face(first), last_face = face(last);
     for (unsigned int t = 0; t < input.n; ++t)
-      for (std::size_t f = face(first); f < std::min(face(last), input.tractions[t].size()); ++f)
+      for (std::size_t f = first_face; f < std::min(last_face, input.tractions[t].size()); ++f)
         for (unsigned int c = 0; c < 6; ++c)
           for (unsigned int d = 0; d < 3; ++d)
             stress[t][node_of_face[f]][c] +=

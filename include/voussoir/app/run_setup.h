@@ -53,6 +53,7 @@ namespace Voussoir
     void         check_ranks() const;
     void         claim_directory();
     void         make_dam();
+    void         make_motions(const std::vector<MotionParameters> &motions);
     void         read_input();
     void         validate();
     GroundMotion motion_of_run(const MotionParameters &parameters) const;

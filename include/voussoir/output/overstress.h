@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace Voussoir
@@ -46,13 +47,13 @@ namespace Voussoir
       last = time;
     }
 
-    /** Returns true if a duration is recorded for this @p stress [Pa]. */
-    bool counts(const float stress) const { return is_active() && stress > strength; }
+    /** Returns the stress above which durations are recorded [Pa]. */
+    float lowest_level() const { return is_active() ? strength : std::numeric_limits<float>::infinity(); }
 
     /** Adds a node to the record. @p stress: its maximum principal stress at the present time [Pa]. */
     void add(const std::size_t node, const float stress)
     {
-      if (counts(stress))
+      if (stress > lowest_level())
         for (unsigned int k = 0; k < n_levels && stress > static_cast<float>(level(k)) * strength; ++k)
           seconds[n_levels * node + k] += interval;
     }

@@ -18,10 +18,9 @@ namespace Voussoir
   /** Returns the largest and the smallest principal stress [Pa]. */
   std::array<float, 2> principal_stresses(const Stress &s);
 
-  /** Returns an upper bound of the largest and a lower bound of the smallest principal stress [Pa], at a fraction
-   * of the cost. The bounds are the mean stress plus and minus 2/sqrt(3) sqrt(J2). J2 is the second invariant of the
-   * deviator. */
-  std::array<float, 2> bounds_of_principal_stresses(const Stress &s);
+  /** Returns true if the largest principal stress is above @p high or the smallest one below @p low [Pa], at a fraction
+   * of the cost of principal_stresses(). */
+  bool exceeds(const Stress &s, float high, float low);
 
   /** Displacements and known face tractions at up to n_times times. StressRecovery computes the stresses at these
    * times together, because it then reads its operator only once. */
