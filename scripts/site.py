@@ -22,9 +22,9 @@ ROOT = Path(__file__).resolve().parent.parent
 OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
 NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.md, parameters: of the program
     "Start": ("index", "install", "tutorials/1_first_run", "limits", "comparison", "read_results", "pages"),
-    "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "tutorials/4_rock", "tutorials/6_study",
-               "tutorials/7_report", "messages", "report", "parallel"),
-    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "studies", "python", "base_joints", "lift_joints", "wedges",
+    "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "tutorials/4_rock", "studies", "report",
+               "messages", "parallel"),
+    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "python", "base_joints", "lift_joints", "wedges",
                   "generated/refused_pairs", "glossary", "changes"),
     "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
     "Evidence": ("verification", "contact", "performance", "paper", "rigid_base", "failures"),
