@@ -324,7 +324,7 @@ def report():
     page = Path("report.html").read_text()
     expect(all(f"motion_{n}" in page for n in (1, 2, 3)), "a run is not in the report")
     limits = summary("output/motion_1")["limits"]
-    expect({"demand_capacity_ratio", "waterstop_opening"} <= set(limits), f"{limits}")
+    expect({"demand_capacity", "waterstop_opening"} <= set(limits), f"{limits}")
 
 
 def editor():
