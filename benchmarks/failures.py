@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The gallery of failures (doc/failures.md): what fails, how it looks, and what Voussoir does instead.
+"""The gallery of failures (doc/failures.md): what fails, how it looks, and what Voussoir does instead. Numbers: benchmarks/README.md.
 
     benchmarks/failures.py [NAME]... [--voussoir PROGRAM] [--benchmark PROGRAM] [--figures DIRECTORY]
 
 NAME: newmark, velocity, angle, drift, gauss, interpolation, diagonal, substeps, penalty; all without one. Prints the
-tables of the page and draws failure_NAME.png, some seconds each. newmark and angle need the program (scripts/build.sh);
+tables and draws failure_NAME.png, some seconds each. newmark and angle need the program (scripts/build.sh);
 newmark, drift, gauss, interpolation and diagonal benchmark_failures (ninja -C build benchmarks); velocity, substeps and
 penalty neither: the program does not have these mistakes, failure_models.py has. Debian: python3-matplotlib.
 """

@@ -20,14 +20,15 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
+MATHJAX = Path("/usr/share/javascript/mathjax")
 NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.md, parameters: of the program
     "Start": ("index", "install", "tutorials/1_first_run", "limits", "comparison", "read_results", "pages"),
     "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "tutorials/4_rock", "studies", "report",
                "messages", "parallel"),
-    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "python", "base_joints", "lift_joints", "wedges",
+    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "python", "base_joints",
                   "generated/refused_pairs", "glossary", "changes"),
     "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
-    "Evidence": ("verification", "contact", "performance", "paper", "rigid_base", "failures"),
+    "Evidence": ("verification", "performance", "paper", "failures"),
     "Develop": ("CONTRIBUTING", "tutorials/5_own_law", "release"),
 }
 
@@ -88,6 +89,24 @@ def check_navigation(pages):
             sys.exit(f"site: these pages are {text} (scripts/site.py): {', '.join(sorted(names))}.")
 
 
+def formulas(pages):
+    """Copies the part of MathJax that draws formulas. Without it, the site has their source text."""
+    if not MATHJAX.is_dir():
+        print("site: formulas stay text (on Debian: apt-get install libjs-mathjax).", file=sys.stderr)
+        return
+    for name in ("MathJax.js", "config/TeX-AMS_CHTML.js", "extensions", "jax/element", "jax/input/TeX", "jax/output/CommonHTML",
+                 "fonts/HTML-CSS/TeX/woff"):
+        (shutil.copytree if (MATHJAX / name).is_dir() else shutil.copy)(MATHJAX / name, made(pages / "mathjax" / name))
+    (pages / "formulas.js").write_text('window.MathJax = {tex2jax: {inlineMath: [["\\\\(", "\\\\)"]], displayMath: [["\\\\[", "\\\\]"]]}, '
+                                       'messageStyle: "none", menuSettings: {zoom: "None"}};\n', encoding="utf-8")
+
+
+def made(path):
+    """The path, whose directory now exists."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    return path
+
+
 def configuration(directory, pages):
     """mkdocs.yml with the pages of NAVIGATION."""
     check_navigation(pages)
@@ -95,7 +114,10 @@ def configuration(directory, pages):
     text = {"site_name": "Voussoir", "docs_dir": str(pages), "nav": nav, "use_directory_urls": False,
             "theme": {"name": "material", "font": False, "features": ["navigation.sections"]},  # no fonts from the network
             "plugins": [{"search": {"separator": r"[\s\-/]+"}}],  # the words of Section/Entry
+            "markdown_extensions": [{"pymdownx.arithmatex": {"generic": True}}],
+            "extra_javascript": ["formulas.js", "mathjax/MathJax.js?config=TeX-AMS_CHTML"] if MATHJAX.is_dir() else [],
             "extra_css": ["tables.css"]}
+    formulas(pages)
     (pages / "tables.css").write_text("thead:has(th:empty) { display: none; }\n",
                                       encoding="utf-8")
     path = directory / "mkdocs.yml"

@@ -95,7 +95,7 @@ namespace Voussoir
   {
     prm.add_parameter(
         "Wedges", wedges,
-        "File with the planes of rock wedges under the abutments, one line per plane (doc/wedges.md). With it, "
+        "File with the planes of rock wedges under the abutments, one line per plane (doc/base_joints.md). With it, "
         "wedges.csv contains the force of the dam on each wedge, the mode of sliding and the sliding safety over "
         "time. The path is relative to the input file.",
         dealii::Patterns::Anything());

@@ -332,7 +332,7 @@ namespace Voussoir
           (outside.empty() ? "No face has its centre on the side of the wedge of all planes"
                            : "The whole base is on the other side of: " + outside) +
           ". Check the points of the planes, in the axes of the program [m], and that the normals point into "
-          "the wedge (dip and dip direction in doc/wedges.md).");
+          "the wedge (dip and dip direction in doc/base_joints.md).");
     }
     return result;
   }

@@ -30,7 +30,7 @@ namespace Voussoir
    * descent of a plane under the wedge, from downstream (x) to the left bank (y) [degrees] */
   Vector3 normal_of(double dip, double direction);
 
-  /** Returns the wedges of the file "Limits/Wedges" (doc/wedges.md); empty if the entry is empty. Throws
+  /** Returns the wedges of the file "Limits/Wedges" (doc/base_joints.md); empty if the entry is empty. Throws
    * InputError with file and line if the file cannot be read, if a value is wrong, or if the planes of a wedge
    * are parallel to each other or to one line. */
   std::vector<RockWedge> rock_wedges(const Scene &scene);
