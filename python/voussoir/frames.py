@@ -1,5 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Reads frames.bin of a run: displacements, stresses, openings and water pressures at the surface of the dam over time."""
+"""Reads frames.bin of a run: displacements, stresses, openings and water pressures at the surface of the dam over time.
+
+Format, little-endian: a line of JSON (format, numbers of nodes and quads; stress: false without Output/Envelope interval; pressure:
+true with compressible water). Three float32 per node: position [m]. Six int32 per quadrilateral: surface (doc/mesh.md; 100 + K and
+200 + K: sides of joint K), monolith, four nodes. Then the frames: float64 time [s]; three float32 units; int16 multiples of them:
+displacement relative to the base [m] (three per node), maximum principal stress [Pa], opening [m]; with pressure a float32 unit and
+int16 dynamic pressures [Pa]. The largest magnitude of a frame is 32767 times its unit."""
 
 import json
 from pathlib import Path
