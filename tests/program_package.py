@@ -10,6 +10,7 @@ import json
 import math
 import os
 import re
+import shlex
 import shutil
 import subprocess
 import sys
@@ -253,14 +254,36 @@ def would_run(text, environment, taken):
         expect(result.returncode == 0, f"{line} {check}: {result.stdout[-2000:]}{result.stderr}")
 
 
+def states(page, output, *arguments):
+    """Runs a scene at full size: the page states its largest opening and slip [mm] and the stresses of both faces [MPa], to their digits or 1 %."""
+    runs(*arguments, "--output", output, "--set", "Output/Figures=false")
+    text, found = " ".join(page.read_text().split()), summary(output)["extremes"]
+    values = [found[f"max_{name}"]["value"] for name in ("opening", "slip", "tension_upstream_away_from_base", "tension_downstream_away_from_base")]
+    values = [1e3 * values[0], 1e3 * values[1], 1e-6 * values[2], 1e-6 * values[3]]
+    number = r"(\d+(?:\.\d+)?)"
+    stated = [[float(x) for x in match] for match in re.findall(rf"open\w* [a-z ]*{number} mm,?[a-z ]* {number} mm[^;]*? {number} MPa upstream(?:,| and) "
+                                                                rf"{number} MPa downstream", text)]
+    print(f"    {page.name}: {[float(f'{value:.4g}') for value in values]} of {stated}")
+    expect(any(all(abs(x - value) < max(.01 * value, .06) for x, value in zip(row, values)) for row in stated), f"{values} are not in {stated}")
+
+
+def readme():
+    Path("prm").symlink_to(ROOT / "prm")
+    command = re.search(r"^    build/voussoir (prm.*(?:\\\n.*)*)", (ROOT / "README.md").read_text(), re.M)[1]
+    states(ROOT / "README.md", "quickstart", "prm/quickstart.prm")
+    states(ROOT / "README.md", "moderate", *shlex.split(command.replace("--output output/moderate", "")))
+
+
 def tutorial_1_first_run():
     tutorial("1_first_run")
+    states(ROOT / "doc/tutorials/1_first_run.md", "full", "first.prm")
     expect(json.loads(Path("output/first_fjb/summary.json").read_text())["law"] == "FJB", "the law")
     expect(len(list(Path("output/first/figures").glob("*.png"))) >= 5, "figures")
 
 
 def tutorial_2_own_dam():
     tutorial("2_own_dam")
+    states(ROOT / "doc/tutorials/2_own_dam.md", "full", "own.prm")
     expect(json.loads(Path("output/own/summary.json").read_text())["mesh"]["joints"] == 7, "joints")
     expect([name for name in ("water", "westergaard") if "water" in json.loads(Path(f"output/{name}/summary.json").read_text())] == ["water"],
            "the model of the water")
@@ -437,5 +460,5 @@ def site_search():
 
 
 if __name__ == "__main__":
-    run_cases(package, arcs, notebook, editor, site, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock, tutorial_5_own_law,
-              studies, report)
+    run_cases(package, arcs, notebook, editor, site, readme, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records, tutorial_4_rock,
+              tutorial_5_own_law, studies, report)
