@@ -20,7 +20,8 @@ case "${1:-}" in
     optional=("${for_runs[@]}" "libfclib-dev: FCLib files in voussoir-contact" "libhdf5-dev: with libfclib-dev"
               "clang-format: format of the sources" "calculix-ccx: benchmarks/calculix.py" "python3-siconos: benchmarks/contact.py"
               "python3-h5py: benchmarks/contact.py" "chromium: voussoir report --pdf and the test of its page"
-              "snakemake: voussoir study" "mkdocs-material: scripts/site.py" "python3-jsonschema: test of the JSON schema of the scene")
+              "snakemake: voussoir study" "mkdocs-material: scripts/site.py" "libjs-mathjax: formulas of scripts/site.py"
+              "python3-jsonschema: test of the JSON schema of the scene")
     ;;
 esac
 

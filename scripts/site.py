@@ -118,8 +118,8 @@ def configuration(directory, pages):
             "extra_javascript": ["formulas.js", "mathjax/MathJax.js?config=TeX-AMS_CHTML"] if MATHJAX.is_dir() else [],
             "extra_css": ["tables.css"]}
     formulas(pages)
-    (pages / "tables.css").write_text("thead:has(th:empty) { display: none; }\n",
-                                      encoding="utf-8")
+    (pages / "tables.css").write_text("thead:has(th:empty) { display: none; }\n"
+                                      "div.arithmatex { overflow-x: auto; }\n", encoding="utf-8")
     path = directory / "mkdocs.yml"
     path.write_text(json.dumps(text, indent=1), encoding="utf-8")  # JSON is YAML
     return path

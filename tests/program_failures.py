@@ -10,7 +10,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from run_program import expect, run_cases, runs, summary, table, voussoir
+from run_program import expect, run_cases, summary, table, voussoir
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "benchmarks"))
