@@ -269,9 +269,9 @@ def states(page, output, *arguments):
 
 def readme():
     Path("prm").symlink_to(ROOT / "prm")
-    command = re.search(r"^    build/voussoir (prm.*(?:\\\n.*)*)", (ROOT / "README.md").read_text(), re.M)[1]
+    command = re.search(r"^    build/voussoir (prm(?:.*\\\n)*.*)", (ROOT / "README.md").read_text(), re.M)[1]
     states(ROOT / "README.md", "quickstart", "prm/quickstart.prm")
-    states(ROOT / "README.md", "moderate", *shlex.split(command.replace("--output output/moderate", "")))
+    states(ROOT / "README.md", "moderate", *shlex.split(command.replace("--output output/moderate", "").replace("\\\n", "")))
 
 
 def tutorial_1_first_run():
