@@ -9,8 +9,8 @@ rock28_cells, rock_layers. On rock the motion ends in 0.2 s, and half a second o
 dam before the end, whatever the depth.
 The measures are those of `voussoir accuracy`: largest openings of the joints (root of the sum of squares), means of the
 tension envelope over nine zones of each face; over the strongest seconds of the scene's motion. Each group has a
-reference: the finest step, mesh or box. Prints Markdown tables, and draws doc/figures/choices_GROUP.png of quickstart, steps
-and elements. Cost: seconds of processor time of one thread per second of earthquake, without set-up.
+reference: the finest step, mesh or box. Prints Markdown tables, and draws doc/figures/choices_steps.png. Cost: seconds of processor
+time of one thread per second of earthquake, without set-up.
 """
 
 import argparse
@@ -33,7 +33,7 @@ from matplotlib.ticker import LogLocator
 
 RIGID, ROCK, MANY, ROCK_MANY = (ROOT / "prm" / f"{name}.prm" for name in ("coarse", "rock_fja", "rigid28", "rock28"))
 STEPS = "Dynamics/Steps per sample"
-CHARTS = ("quickstart", "steps", "elements")  # that doc/accuracy.md shows
+CHARTS = ("steps",)  # that doc/accuracy.md shows
 SIDES = ("Upstream", "Downstream", "Sides", "Depth")
 FADE, REST = 20, 50  # samples at the end of a motion on rock
 

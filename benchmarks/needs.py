@@ -5,7 +5,7 @@
     benchmarks/needs.py [SCENE...] [--for 5%] [--seed 33] [--jobs 2] [--output build/needs] [--voussoir PROGRAM]
 
 The dams are of arcs of random heights, radii and thicknesses, with 1 to 20 joints, on a rigid base, massless rock or rock; water, materials, friction
-and the artificial motions are random as well. Meshes follow doc/choose_mesh.md. Acceptance: at least 90 % of the quantities are within the target, and
+and the artificial motions are random as well. Meshes follow doc/accuracy.md. Acceptance: at least 90 % of the quantities are within the target, and
 the cost is at most a third. Prints a Markdown table. Existing runs are not repeated. SCENE: numbers from 1 to 5.
 """
 

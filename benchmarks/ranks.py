@@ -3,7 +3,7 @@
 """One rank, threads, and several ranks, of the same scene: are the results the same bits, and what does each rank do?
 
 Usage: benchmarks/ranks.py [--voussoir build/voussoir] [--ranks 2 4] [--before OTHER/voussoir] [--set ENTRY=VALUE] SCENE.prm ...
-Prints a table for doc/parallel.md. Work is processor time of the shaking without messages, so it can be compared on a
+Prints a table for benchmarks/README.md. Work is processor time of the shaking without messages, so it can be compared on a
 machine that has fewer cores than there are ranks; wall times there mean something for at most as many ranks as cores.
 With --before also the wall time of an older program on one rank.
 """

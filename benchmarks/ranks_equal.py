@@ -4,7 +4,7 @@
 
 Usage: benchmarks/ranks_equal.py [--voussoir build/voussoir] [--ranks 1 2 4] [--only WORD ...] [--seconds MOST]
 Runs quickstart, rigid28, rock_fja with each artificial boundary, keys_law and massless_fja, and compares all tables and fields byte
-by byte, and the numbers of summary.json but for times and memory. Prints a table for doc/parallel.md; status 1 if anything differs.
+by byte, and the numbers of summary.json but for times and memory. Prints a table for benchmarks/README.md; status 1 if anything differs.
 """
 import argparse
 import json

@@ -5,7 +5,7 @@
 Usage: benchmarks/scaling.py --measure [--voussoir build/voussoir] [--messages build/benchmark_messages]
        benchmarks/scaling.py [--output doc/figures/scaling.png]
 The first writes doc/scaling.json: the stages of rigid28 and rock28 on one rank and one thread, messages and their cost on two ranks.
-The second prints the tables of doc/performance.md from it, with one and with 48 threads per rank, and draws the figure.
+The second prints tables from it, which doc/performance.md quotes, with one and with 48 threads per rank, and draws the figure.
 The network, the larger sizes and the memory are not measured.
 """
 import argparse

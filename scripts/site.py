@@ -23,12 +23,12 @@ OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
 MATHJAX = Path("/usr/share/javascript/mathjax")
 NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.md, parameters: of the program
     "Start": ("index", "install", "tutorials/1_first_run", "limits", "comparison", "read_results", "pages"),
-    "How-to": ("tutorials/2_own_dam", "choose_mesh", "needs", "tutorials/3_own_records", "tutorials/4_rock", "tutorials/6_study",
-               "tutorials/7_report", "messages", "report", "parallel"),
-    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "studies", "python", "base_joints",
+    "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "tutorials/4_rock", "studies", "report",
+               "messages", "parallel"),
+    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "python", "base_joints",
                   "generated/refused_pairs", "glossary", "changes"),
     "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
-    "Evidence": ("verification", "accuracy", "performance", "paper", "failures"),
+    "Evidence": ("verification", "performance", "paper", "failures"),
     "Develop": ("CONTRIBUTING", "tutorials/5_own_law", "release"),
 }
 

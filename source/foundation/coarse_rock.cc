@@ -125,7 +125,7 @@ namespace Voussoir
   double strong_coupling()
   {
 #ifdef VOUSSOIR_WITH_TRILINOS
-    return 5e-4; // measured: doc/performance.md, "Estimate for large machines"
+    return 5e-4; // measured: benchmarks/README.md, set-up
 #else
     return 1e-8; // the factors of CHOLMOD are smaller than with 5e-4
 #endif

@@ -23,7 +23,7 @@ namespace Voussoir
      * @p near_base: nodes that RockPatch computes, too. */
     std::vector<double> work_of_nodes(const RockModel &model, const std::vector<unsigned int> &near_base)
     {
-      constexpr double    of_row = 2.5, of_look_ahead = 1.5; // measured, see doc/parallel.md
+      constexpr double    of_row = 2.5, of_look_ahead = 1.5; // measured with benchmarks/ranks.py
       std::vector<double> result(model.points.size(), 1.);
       for (std::size_t i = 0; i < result.size(); ++i)
         if (model.in_other_cell[i])
