@@ -12,7 +12,8 @@ namespace Voussoir
     /** Number of time steps between two energy balances. */
     constexpr unsigned int steps_between_balances = 32;
 
-    /** Limit of the error of the energy balance in single precision, relative to the largest energy of a motion [-]. */
+    /** Limit of the error of the energy balance in single precision, relative to the largest energy of a motion, or to this
+     * part of the strain energy of the static state if that is larger [-]. */
     constexpr double largest_error_of_batch = 1e-3;
   } // namespace
 
@@ -62,6 +63,12 @@ namespace Voussoir
       joints->record();
     }
 
+    double reference_energy() const ///< [J]
+    {
+      return std::max(integrator->largest_energy(),
+                      largest_error_of_batch * std::abs(integrator->initial_energy().strain));
+    }
+
     bool is_done() const { return run.is_last() || !failure.empty(); }
 
     /** Records the state after a step. */
@@ -79,8 +86,8 @@ namespace Voussoir
         imbalance = std::max(imbalance, std::abs(energy.balance(integrator->initial_energy())));
       if (!std::isfinite(energy.input + energy.kinetic))
         failure = "the displacements are not finite at t = " + number_text(integrator->state().time) + " s";
-      else if (run.is_last() && imbalance > largest_error_of_batch * run.largest_energy())
-        failure = "the energy balance has an error of " + number_text(imbalance / run.largest_energy());
+      else if (run.is_last() && imbalance > largest_error_of_batch * reference_energy())
+        failure = "the energy balance has an error of " + number_text(imbalance / reference_energy());
       if (!failure.empty())
         return;
       try

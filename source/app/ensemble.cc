@@ -132,7 +132,7 @@ namespace Voussoir
     }
     catch (const ComputationError &error)
     {
-      result.failure = first_sentence(error.what());
+      result.failure = error.what();
     }
     if (!is_done[number])
       add(number, std::move(result));
@@ -145,6 +145,7 @@ namespace Voussoir
   {
     result.name = members[number].name;
     result.factor = members[number].factor;
+    result.failure = first_sentence(result.failure);
     is_done[number] = true;
     const std::size_t n_done = std::count(is_done.begin(), is_done.end(), true);
     const double      elapsed = loop_clock.seconds();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <stdexcept>
 
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
@@ -131,6 +132,8 @@ namespace Voussoir
   {
     Unknowns Ku;
     structure.multiply_stiffness(u_static, Ku);
+    for (std::size_t k = 0; k < Ku.size(); ++k)
+      static_strain += .5 * u_static[k] * Ku[k];
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)
     {
       const Matrix3 by_force = inverse(structure.mass[i]);
@@ -220,11 +223,13 @@ namespace Voussoir
 
   unsigned int MotionBatch::n_lanes()
   {
+    const char        *wanted = std::getenv("VOUSSOIR_LANES");
+    const unsigned int most = wanted != nullptr ? std::atoi(wanted) : 16;
 #ifdef VOUSSOIR_BATCH_OF_16
-    if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
+    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
         __builtin_cpu_supports("avx512bw"))
       return 16;
-    if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+    if (most >= 8 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
       return 8;
 #endif
     return 4;
@@ -285,7 +290,7 @@ namespace Voussoir
         state.force[3 * q + i] = dot(model.structure.pairs[q].frame[i], force);
     }
     state.energy.input = works[0][lane];
-    state.energy.strain = works[1][lane];
+    state.energy.strain = model.static_strain + works[1][lane];
     state.energy.impact = works[2][lane];
     state.energy.friction = works[3][lane];
   }

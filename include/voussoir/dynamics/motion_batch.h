@@ -35,6 +35,7 @@ namespace Voussoir
     const double       dt;
     const unsigned int n_steps;
     const Unknowns     u_static, closed;
+    double             static_strain = 0.; ///< strain energy of the static state [J]
 
   private:
     void add_stiffness();
@@ -55,7 +56,8 @@ namespace Voussoir
   class MotionBatch
   {
   public:
-    /** Returns the number of lanes on this processor: 16 with AVX-512, 8 with AVX2, otherwise 4. */
+    /** Returns the number of lanes on this processor: 16 with AVX-512, 8 with AVX2, otherwise 4. The variable
+     * VOUSSOIR_LANES of the environment reduces it. */
     static unsigned int n_lanes();
 
     /** Starts all lanes in the static state. @p model must outlive the object. */
