@@ -23,7 +23,7 @@ OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
 MATHJAX = Path("/usr/share/javascript/mathjax")
 NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.md, parameters: of the program
     "Start": ("index", "install", "tutorials/1_first_run", "limits", "comparison", "read_results", "pages"),
-    "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "tutorials/4_rock", "studies", "report",
+    "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "ensembles", "tutorials/4_rock", "studies", "report",
                "messages", "parallel"),
     "Reference": ("input_file", "parameters", "output", "mesh", "loads", "python", "base_joints",
                   "generated/refused_pairs", "glossary", "changes"),

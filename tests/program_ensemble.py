@@ -184,7 +184,9 @@ def records():
     for number, name in enumerate(("'short.txt'", "'long.txt'", "'zero.txt'"), 1):
         agrees("records", number, name, LIMIT)
     expect(summary("records/motion-1")["steps"] < summary("records/motion-2")["steps"], "the records have different lengths")
-    ensemble("three", "short.txt,-,zero.txt; long.txt", *EXPLICIT, *settings("Motion/Source=file", "Motion/Duration=-1", "Motion/Ensemble output=2"))
+    for axis, rate in (("x", 40), ("z", 31)):
+        write(f"{axis}.txt", "".join(f"{k * .01} {sin(rate * k * .01)}\n" for k in range(61)))
+    ensemble("three", "x.txt,-,z.txt; long.txt", *EXPLICIT, *settings("Motion/Source=file", "Motion/Duration=-1", "Motion/Ensemble output=2"))
     agrees("three", 2, "'long.txt'", LIMIT)
 
 
@@ -206,7 +208,9 @@ def entries():
     refused(scene("Motion/Ensemble=1-4", "Motion/Source=none"), "Source")
     refused(scene("Motion/Ensemble=a.txt; b.txt", "Motion/Source=file", "Motion/File=a.txt"), "both given")
     refused(scene("Motion/Ensemble=a.txt; b.txt", "Motion/Source=file", "Motion/Duration=-1"), "b.txt")
-    refused(["motion", "scene.prm", "--output", "m.csv", *settings("Motion/Ensemble=1-4")], "Motion/Ensemble has several")
+    shown = runs("motion", "scene.prm", "--output", "m.csv", *settings("Motion/Ensemble=3; 1-2", "Motion/Ensemble factors=2, 1"))
+    runs("motion", "scene.prm", "--output", "n.csv", *settings("Motion/Seed=3", "Motion/Factor=2"))
+    expect("the first one, seed 3" in shown and Path("m.csv").read_bytes() == Path("n.csv").read_bytes(), "the motion of an ensemble is the first")
     expect(not Path("none").exists(), "nothing was written")
     runs("scene.prm", "--validate", *settings("Motion/Ensemble=1-4"))
     expect(not Path("output").exists(), "--validate writes nothing")

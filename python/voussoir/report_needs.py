@@ -16,7 +16,7 @@ from .study_file import is_file_entry
 def differs(run, entries):
     """First entry with another value in the run than in needs.json, None if there is none. Of files only the names count."""
     def value_of(entry, value):
-        return Path(value).name if is_file_entry(entry) or entry in ("Motion/Sequence", "Motion/Abutments") else value
+        return Path(value).name if is_file_entry(entry) or entry in ("Motion/Sequence", "Motion/Ensemble", "Motion/Abutments") else value
 
     for entry, value in relevant({name: text for name, (text, _) in run.entries.items()}).items():
         if entry in entries and value_of(entry, value) != value_of(entry, entries[entry]):

@@ -28,6 +28,13 @@ def read_summary(directory: PathLike) -> Dict[str, Any]:
     return found
 
 
+def extremes_of(summary: Dict[str, Any]) -> Dict[str, float]:
+    """Extremes of a run by name; of an ensemble, their medians."""
+    if "ensemble" in summary:
+        return {key: value["median"] for key, value in summary["ensemble"].items() if isinstance(value, dict) and "median" in value}
+    return {key: value["value"] for key, value in summary["extremes"].items()}
+
+
 def _table_property(name: str, contents: str) -> cached_property[Table]:
     """Returns a property of Results that reads NAME.csv at its first use."""
     table = cached_property(lambda results: results.table(name))

@@ -217,7 +217,7 @@ def path_of(value, study):
 # Settings of a motion in a file with unit, scale and corrections of a scene.
 AS_IT_IS = {"Motion/Source": "file", "Motion/File x": "", "Motion/File y": "", "Motion/File z": "", "Motion/File step": 0, "Motion/Azimuths": "",
             "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1, "Motion/Scale z": 1,
-            "Motion/Sequence": "", "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false"}
+            "Motion/Sequence": "", "Motion/Ensemble": "", "Motion/Ensemble factors": "", "Motion/Ensemble output": "", "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false"}
 
 
 def is_file_entry(entry):
@@ -227,8 +227,8 @@ def is_file_entry(entry):
 
 
 def with_paths(entry, text, directory):
-    """The value of an entry with absolute paths of its files, and these paths. In Motion/Sequence, numbers are
-    seeds; in Motion/Abutments, a bank and a height precede the files; in Loads/Force history each third part is a file."""
+    """The value of an entry with absolute paths of its files, and these paths. In Motion/Sequence and
+    Ensemble, numbers and ranges are seeds; in Motion/Abutments, a bank and a height precede the files; in Loads/Force history each third part is a file."""
     if is_file_entry(entry) and text:
         path = str((directory / text).resolve())
         return path, [path]
@@ -236,10 +236,10 @@ def with_paths(entry, text, directory):
         parts = [part.strip() for part in text.split(";")]
         parts[2::3] = [str((directory / part).resolve()) for part in parts[2::3]]
         return "; ".join(parts), parts[2::3]
-    if entry not in ("Motion/Sequence", "Motion/Abutments"):
+    if entry not in ("Motion/Sequence", "Motion/Ensemble", "Motion/Abutments"):
         return text, []
     words = [word.strip() for word in re.split("([;,]|(?:right|left) [^:;]*:)" if entry == "Motion/Abutments" else "([;,])", text)]
-    paths = {word: str((directory / word).resolve()) for word in words if word not in ("", ";", ",", "-") and not word.isdigit() and word[-1] != ":"}
+    paths = {word: str((directory / word).resolve()) for word in words if word not in ("", ";", ",", "-") and not re.fullmatch(r"\d+(\s*-\s*\d+)?", word) and word[-1] != ":"}
     return " ".join(paths.get(word, word) for word in words), list(paths.values())
 
 

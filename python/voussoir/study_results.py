@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from .results import extremes_of
 from .study_scene import summary_of
 from .tables import read_table
 
@@ -57,16 +58,16 @@ def motion_of(run):
 def row_of(directory, name, strength):
     """All columns of a scene but its factors."""
     run, summary = Path(directory) / "runs" / name, summary_of(directory, name)
-    extremes = {key: value["value"] for key, value in summary["extremes"].items()}
+    extremes = extremes_of(summary)
     row = {"scene": name, "law": summary["law"], "foundation": summary["foundation"], "revision": summary["revision"],
            "opening": extremes.get("max_opening"), "slip": extremes.get("max_slip"),
            "tension_upstream": extremes.get("max_tension_upstream"), "tension_downstream": extremes.get("max_tension_downstream"),
-           "compression": extremes.get("max_compression"), "energy_balance_error": summary["energy_balance_error"],
-           "newton_mean": summary["newton_iterations"]["mean"], "seconds": summary["seconds"]["wall"],
+           "compression": extremes.get("max_compression"), "energy_balance_error": summary.get("energy_balance_error"),
+           "newton_mean": summary.get("newton_iterations", {}).get("mean"), "seconds": summary["seconds"]["wall"],
            "cpu_seconds": summary["seconds"]["cpu"], "memory_bytes": summary["memory_bytes"], "warnings": len(summary["warnings"])}
     tensions = [row[column] for column in ("tension_upstream", "tension_downstream") if row[column] is not None]
     row["tension"] = max(tensions) if tensions else None
-    return {**row, **motion_of(run), **damage(run, strength)}
+    return {**row, **({} if "ensemble" in summary else motion_of(run)), **damage(run, strength)}
 
 
 def write_results(study, directory, scenes):

@@ -18,7 +18,7 @@ from pathlib import Path
 from .command import write_whole
 from .errors import InputError
 from .program import message_of
-from .results import read_summary
+from .results import extremes_of, read_summary
 
 
 def end_with_parent(number=signal.SIGTERM):
@@ -53,7 +53,7 @@ def revision_of(directory, name):
 def row_in_words(directory, name):
     """Results of a scene, for the screen."""
     summary = summary_of(directory, name)
-    extremes = {key: value["value"] for key, value in summary["extremes"].items()}
+    extremes = extremes_of(summary)
     words = [f"opening {1e3 * extremes['max_opening']:.1f} mm"] if "max_opening" in extremes else []
     tensions = [value for key, value in extremes.items() if key.startswith("max_tension")]
     words += [f"tension {1e-6 * max(tensions):.1f} MPa"] if tensions else []

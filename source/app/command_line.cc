@@ -191,11 +191,14 @@ namespace Voussoir
                     arguments.value("--spectrum"), arguments.has("--json"));
       else if (command == "mesh")
         write_mesh(scene, arguments);
-      else if (!scene.motion.ensemble.empty())
-        throw InputError("`voussoir motion` writes one motion, but Motion/Ensemble has several. Choose one with --set "
-                         "Motion/Ensemble= and Motion/Seed or Motion/File.");
       else
       {
+        if (const auto members = scene.motion.members(); !members.empty())
+        {
+          scene.motion = members.front().motion;
+          std::cout << "Motion/Ensemble has " << members.size() << " motions. This is the first one, "
+                    << members.front().name << ".\n";
+        }
         const GroundMotion motion = make_motion(scene.motion, scene.directory);
         write_motion(motion, arguments.value("--output"));
         for (const std::string &note : motion.notes)
