@@ -271,7 +271,13 @@ def readme():
     Path("prm").symlink_to(ROOT / "prm")
     command = re.search(r"^    build/voussoir (prm(?:.*\\\n)*.*)", (ROOT / "README.md").read_text(), re.M)[1]
     states(ROOT / "README.md", "quickstart", "prm/quickstart.prm")
-    states(ROOT / "README.md", "moderate", *shlex.split(command.replace("--output output/moderate", "").replace("\\\n", "")))
+    runs(*shlex.split(command.replace("\\\n", "")), "--set", "Output/Figures=false")
+    found, text = summary("output/moderate")["ensemble"], (ROOT / "README.md").read_text()
+    for label, name, unit in (("opening", "max_opening", 1e3), ("slip", "max_slip", 1e3), ("tension downstream", "max_tension_downstream_away_from_base", 1e-6)):
+        stated = [float(x) for x in re.findall(r"[\d.]+", re.search(rf"^\| {label} \[\w+\] \|(.*)$", text, re.M)[1])]
+        values = [unit * found[name][end] for end in ("median", "p16", "p84", "min", "max")]
+        print(f"    README: {label} {stated}, computed {[round(value, 2) for value in values]}")
+        expect(all(abs(x - value) < max(.01 * value, .06) for x, value in zip(stated, values)), f"{label} {values} is not {stated}")
 
 
 def tutorial_1_first_run():

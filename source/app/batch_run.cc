@@ -53,7 +53,8 @@ namespace Voussoir
       run.statics = start.statics;
       run.n_steps = motion.acceleration.size() - 1;
       run.pairs_at_start = start.pairs_at_start;
-      auto own = std::make_unique<LaneIntegrator>(batch, model, run.dam->layout.laws, run.statics.force, lane);
+      auto own =
+          std::make_unique<LaneIntegrator>(batch, model, run.dam->layout.laws, run.statics.force, lane);
       integrator = own.get();
       run.integrator = std::move(own);
       joints.emplace(run);
@@ -75,11 +76,11 @@ namespace Voussoir
     void follow()
     {
       const Unknowns v_before = integrator->state().v;
-      const bool     is_balanced = (run.step + 1) % steps_between_balances == 0 || run.step + 1 == run.n_steps;
+      const bool is_balanced = (run.step + 1) % steps_between_balances == 0 || run.step + 1 == run.n_steps;
       integrator->read(is_balanced);
-      run.acceleration = mean_acceleration(v_before, integrator->state().v, run.motion.dt,
-                                           run.ground_acceleration(run.step), run.ground_acceleration(run.step + 1),
-                                           integrator->weight_of_end());
+      run.acceleration =
+          mean_acceleration(v_before, integrator->state().v, run.motion.dt, run.ground_acceleration(run.step),
+                            run.ground_acceleration(run.step + 1), integrator->weight_of_end());
       ++run.step;
       const Energy &energy = integrator->state().energy;
       if (is_balanced)

@@ -47,7 +47,8 @@ namespace Voussoir
   void EnsembleRun::run()
   {
     if (Ranks::size() > 1)
-      throw InputError("\"Motion/Ensemble\" runs in one process. Use threads (OMP_NUM_THREADS), or remove the entry.");
+      throw InputError(
+          "\"Motion/Ensemble\" runs in one process. Use threads (OMP_NUM_THREADS), or remove the entry.");
     prepare(motions_of(members));
     if (options.validate)
       return;
@@ -153,11 +154,12 @@ namespace Voussoir
         result.name + (result.factor == 1. ? "" : " times " + number_text(result.factor));
     const std::string left = clock_time(elapsed / (n_done - n_before) * (members.size() - n_done));
     if (result.failure.empty())
-      log.line("%5zu of %zu  %-20s  opening %8.2f mm  slip %8.2f mm  elapsed %s  left %s", number + 1, members.size(),
-               name.c_str(), 1e3 * result.extremes[0].second, 1e3 * result.extremes[1].second,
+      log.line("%5zu of %zu  %-20s  opening %8.2f mm  slip %8.2f mm  elapsed %s  left %s", number + 1,
+               members.size(), name.c_str(), 1e3 * result.extremes[0].second, 1e3 * result.extremes[1].second,
                clock_time(elapsed).c_str(), left.c_str());
     else
-      log.line("%5zu of %zu  %-20s  failed: %s", number + 1, members.size(), name.c_str(), result.failure.c_str());
+      log.line("%5zu of %zu  %-20s  failed: %s", number + 1, members.size(), name.c_str(),
+               result.failure.c_str());
     results.motions[number] = std::move(result);
   }
 
@@ -185,7 +187,8 @@ namespace Voussoir
       if (is_first && report_clock.seconds() > report_interval)
       {
         report_clock = Stopwatch();
-        log.line("          t = %.2f s of %.2f s", (step + 1) * state.motion.dt, batch.n_steps() * state.motion.dt);
+        log.line("          t = %.2f s of %.2f s", (step + 1) * state.motion.dt,
+                 batch.n_steps() * state.motion.dt);
       }
     }
 #pragma omp critical(ensemble_result)
@@ -198,10 +201,10 @@ namespace Voussoir
 
   void EnsembleRun::run_batches()
   {
-    const BatchModel     model(state.dam->structure, state.dam->layout.laws, state.motion.dt, scene.n_explicit,
-                               state.dam->inertia, state.statics.u, state.statics.constant_load(),
-                               state.statics.closed);
-    const JointObserver  joints(state);
+    const BatchModel    model(state.dam->structure, state.dam->layout.laws, state.motion.dt, scene.n_explicit,
+                              state.dam->inertia, state.statics.u, state.statics.constant_load(),
+                              state.statics.closed);
+    const JointObserver joints(state);
     const StressObserver stresses(state, joints.joints);
     lanes = MotionBatch::n_lanes();
     std::vector<std::vector<std::size_t>> batches;
@@ -212,8 +215,8 @@ namespace Voussoir
           batches.emplace_back();
         batches.back().push_back(k);
       }
-    log.line("\nEnsemble  %zu motions in batches of %u, %zu of %zu batches left", members.size(), lanes, batches.size(),
-             (members.size() + lanes - 1) / lanes);
+    log.line("\nEnsemble  %zu motions in batches of %u, %zu of %zu batches left", members.size(), lanes,
+             batches.size(), (members.size() + lanes - 1) / lanes);
     std::exception_ptr error;
 #pragma omp parallel for schedule(dynamic) if (int(batches.size()) >= omp_get_max_threads())
     for (std::size_t b = 0; b < batches.size(); ++b)
@@ -246,9 +249,11 @@ namespace Voussoir
   void EnsembleRun::throw_interrupted() const
   {
     const std::size_t n_done = std::count(is_done.begin(), is_done.end(), true);
-    throw Interrupted(InterruptGuard::received() + std::string(" was received when ") + std::to_string(n_done) +
-                      " of " + std::to_string(members.size()) + " motions were complete. Continue with the same command and "
-                      "--resume" + (options.overwrite ? " instead of --overwrite." : "."));
+    throw Interrupted(InterruptGuard::received() + std::string(" was received when ") +
+                      std::to_string(n_done) + " of " + std::to_string(members.size()) +
+                      " motions were complete. Continue with the same command and "
+                      "--resume" +
+                      (options.overwrite ? " instead of --overwrite." : "."));
   }
 
   void EnsembleRun::finish()
@@ -261,9 +266,9 @@ namespace Voussoir
       report_figures(directory, log);
     log.line("Results   %s", directory.c_str());
     if (const std::vector<std::string> failures = results.failures(); !failures.empty())
-      throw ComputationError(std::to_string(failures.size()) + " of " + std::to_string(members.size()) +
-                             " motions have no results: " + failures.front() +
-                             (failures.size() > 1 ? " and others" : "") +
-                             ". The statistics are of the other motions. The results are in " + directory + ".");
+      throw ComputationError(
+          std::to_string(failures.size()) + " of " + std::to_string(members.size()) +
+          " motions have no results: " + failures.front() + (failures.size() > 1 ? " and others" : "") +
+          ". The statistics are of the other motions. The results are in " + directory + ".");
   }
 } // namespace Voussoir

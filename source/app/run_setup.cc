@@ -307,8 +307,7 @@ namespace Voussoir
   void RunSetup::find_static_state()
   {
     const Stopwatch watch;
-    state.statics =
-        static_state(*state.dam, contact_parameters("static"), log, [this] { stop_if_asked(); });
+    state.statics = static_state(*state.dam, contact_parameters("static"), log, [this] { stop_if_asked(); });
     state.pairs_at_start = state.statics.pairs;
     counters.statics = watch.seconds();
   }

@@ -93,10 +93,9 @@ namespace Voussoir
 
     Assessment assessment_of(const RunState &run, const RunObservers &observers)
     {
-      return assess(run, observers.joints, observers.stresses,
-                    observers.blocks ? &observers.blocks->blocks : nullptr,
-                    observers.wedges ? std::optional<double>(observers.wedges->least_safety())
-                                     : std::nullopt);
+      return assess(
+          run, observers.joints, observers.stresses, observers.blocks ? &observers.blocks->blocks : nullptr,
+          observers.wedges ? std::optional<double>(observers.wedges->least_safety()) : std::nullopt);
     }
   } // namespace
 

@@ -19,8 +19,8 @@ namespace Voussoir
 #ifdef VOUSSOIR_BATCH_OF_16
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wpsabi"
-#pragma GCC push_options
-#pragma GCC target("avx512f,avx512dq,avx512vl,avx512bw,avx2,fma")
+#pragma GCC            push_options
+#pragma GCC            target("avx512f,avx512dq,avx512vl,avx512bw,avx2,fma")
     namespace Lanes16
     {
       constexpr int lanes = 16;
@@ -73,9 +73,9 @@ namespace Voussoir
     return "";
   }
 
-  BatchModel::BatchModel(const Structure &structure, const JointLaws &laws, const double dt, const unsigned int n_steps,
-                         const std::array<Unknowns, 3> &inertia, const Unknowns &u, const Unknowns &load,
-                         const Unknowns &closed)
+  BatchModel::BatchModel(const Structure &structure, const JointLaws &laws, const double dt,
+                         const unsigned int n_steps, const std::array<Unknowns, 3> &inertia,
+                         const Unknowns &u, const Unknowns &load, const Unknowns &closed)
       : structure(structure), dt(dt), n_steps(n_steps), u_static(u), closed(closed), sizes()
   {
     const double   h = dt / n_steps;
@@ -226,8 +226,8 @@ namespace Voussoir
     const char        *wanted = std::getenv("VOUSSOIR_LANES");
     const unsigned int most = wanted != nullptr ? std::atoi(wanted) : 16;
 #ifdef VOUSSOIR_BATCH_OF_16
-    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl") &&
-        __builtin_cpu_supports("avx512bw"))
+    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
       return 16;
     if (most >= 8 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
       return 8;
@@ -247,8 +247,8 @@ namespace Voussoir
 
   void MotionBatch::advance(const std::vector<Vector3> &before, const std::vector<Vector3> &after)
   {
-    BatchState state = {u.data(),     v.data(),       w.data(),     f.data(), d.data(), gap.data(),
-                        moved.data(), impulse.data(), works, {}};
+    BatchState state = {u.data(),   v.data(),     w.data(),       f.data(), d.data(),
+                        gap.data(), moved.data(), impulse.data(), works,    {}};
     std::fill(impulse.begin(), impulse.end(), 0.f);
     for (unsigned int k = 0; k < model.n_steps; ++k)
     {

@@ -43,8 +43,9 @@ struct Lanes
   Vector  ground[3];
 
   explicit Lanes(const BatchState &s)
-      : u(reinterpret_cast<Vector *>(s.u)), v(reinterpret_cast<Vector *>(s.v)), w(reinterpret_cast<Vector *>(s.w)),
-        f(reinterpret_cast<Vector *>(s.f)), d(reinterpret_cast<Vector *>(s.d)), gap(reinterpret_cast<Vector *>(s.gap)),
+      : u(reinterpret_cast<Vector *>(s.u)), v(reinterpret_cast<Vector *>(s.v)),
+        w(reinterpret_cast<Vector *>(s.w)), f(reinterpret_cast<Vector *>(s.f)),
+        d(reinterpret_cast<Vector *>(s.d)), gap(reinterpret_cast<Vector *>(s.gap)),
         moved(reinterpret_cast<Vector *>(s.moved)), impulse(reinterpret_cast<Vector *>(s.impulse))
   {
     for (int c = 0; c < 3; ++c)
@@ -86,8 +87,8 @@ VOUSSOIR_INLINE void multiply_row(const BatchView &m, const Lanes &s, const std:
 }
 
 /** Computes elastic forces and velocities of the nodes of a body without joint forces, and adds the works. */
-VOUSSOIR_INLINE void predict_body(const BatchView &m, const Lanes &s, double (*works)[16], const std::size_t begin,
-                                  const std::size_t end)
+VOUSSOIR_INLINE void predict_body(const BatchView &m, const Lanes &s, double (*works)[16],
+                                  const std::size_t begin, const std::size_t end)
 {
   Vector input = {}, internal = {};
   for (std::size_t k = 3 * begin; k < 3 * end; ++k)
@@ -120,7 +121,8 @@ VOUSSOIR_INLINE void predict_body(const BatchView &m, const Lanes &s, double (*w
 
 /** Updates the displacements of a body and the memory of the damping. */
 template <int n_terms>
-VOUSSOIR_INLINE void move_body(const BatchView &m, const Lanes &s, const std::size_t begin, const std::size_t end)
+VOUSSOIR_INLINE void move_body(const BatchView &m, const Lanes &s, const std::size_t begin,
+                               const std::size_t end)
 {
   for (std::size_t k = 3 * begin; k < 3 * end; ++k)
   {
@@ -179,8 +181,8 @@ VOUSSOIR_INLINE void solve_no_slip(const BatchPair &pair, const Vector b[3], Vec
 
 /** Adds the joint force of a pair to its nodes, and the change of the works of predict_body(). */
 template <int n_terms>
-VOUSSOIR_INLINE void kick(const BatchView &m, const Lanes &s, const BatchPair &pair, const Vector f[3], Vector &input,
-                          Vector &internal)
+VOUSSOIR_INLINE void kick(const BatchView &m, const Lanes &s, const BatchPair &pair, const Vector f[3],
+                          Vector &input, Vector &internal)
 {
   for (int side = 0; side < 2; ++side)
   {

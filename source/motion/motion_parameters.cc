@@ -85,14 +85,16 @@ namespace Voussoir
         "Sequence. Source = artificial: seeds, such as 1-16 or 3; 7; 11. Source = file: files. The results are the "
         "median and the scatter. Empty: one motion.",
         Patterns::Anything());
-    prm.add_parameter("Ensemble factors", ensemble_factors,
-                      "Factors [-] of all motions of Ensemble, besides Factor, as in 0.5, 1, 1.5: incremental "
-                      "dynamic analysis. Empty: 1.",
-                      Patterns::Anything());
-    prm.add_parameter("Ensemble output", ensemble_output,
-                      "Numbers of the motions of Ensemble, such as 3, 7, whose run is written with all tables to a "
-                      "directory of its own. Empty: none.",
-                      Patterns::Anything());
+    prm.add_parameter(
+        "Ensemble factors", ensemble_factors,
+        "Factors [-] of all motions of Ensemble, besides Factor, as in 0.5, 1, 1.5: incremental "
+        "dynamic analysis. Empty: 1.",
+        Patterns::Anything());
+    prm.add_parameter(
+        "Ensemble output", ensemble_output,
+        "Numbers of the motions of Ensemble, such as 3, 7, whose run is written with all tables to a "
+        "directory of its own. Empty: none.",
+        Patterns::Anything());
   }
 
   void MotionParameters::add_file_parameters(Entries &prm)
@@ -488,8 +490,9 @@ namespace Voussoir
             std::string("Motion/Ensemble and Motion/") + (p.sequence.empty() ? "Abutments" : "Sequence") +
             " are both given. Each motion of Ensemble is one motion for the whole base. Remove one of the entries.");
       if (!files.empty())
-        throw InputError("Motion/Ensemble and Motion/File (or File x, y, z) are both given: move the file into "
-                         "Ensemble, or remove Ensemble.");
+        throw InputError(
+            "Motion/Ensemble and Motion/File (or File x, y, z) are both given: move the file into "
+            "Ensemble, or remove Ensemble.");
     }
   } // namespace
 

@@ -23,14 +23,18 @@ namespace Voussoir
 
     /** Adds the products of four numbers of two vectors @p a and four vectors @p b to @p sum, up to @p size, a multiple
      * of four. Each number is read once for several products. */
-    VOUSSOIR_WITH_AVX void add_products(const double *const *a, const double *const *b, const std::size_t size, Four *sum)
+    VOUSSOIR_WITH_AVX void add_products(const double *const *a, const double *const *b,
+                                        const std::size_t size, Four *sum)
     {
       Four s0 = {}, s1 = {}, s2 = {}, s3 = {}, s4 = {}, s5 = {}, s6 = {}, s7 = {};
       for (std::size_t i = 0; i < size; i += 4)
       {
-        const Four x = *reinterpret_cast<const Four *>(a[0] + i), y = *reinterpret_cast<const Four *>(a[1] + i),
-                   b0 = *reinterpret_cast<const Four *>(b[0] + i), b1 = *reinterpret_cast<const Four *>(b[1] + i),
-                   b2 = *reinterpret_cast<const Four *>(b[2] + i), b3 = *reinterpret_cast<const Four *>(b[3] + i);
+        const Four x = *reinterpret_cast<const Four *>(a[0] + i),
+                   y = *reinterpret_cast<const Four *>(a[1] + i),
+                   b0 = *reinterpret_cast<const Four *>(b[0] + i),
+                   b1 = *reinterpret_cast<const Four *>(b[1] + i),
+                   b2 = *reinterpret_cast<const Four *>(b[2] + i),
+                   b3 = *reinterpret_cast<const Four *>(b[3] + i);
         s0 += x * b0, s1 += x * b1, s2 += x * b2, s3 += x * b3;
         s4 += y * b0, s5 += y * b1, s6 += y * b2, s7 += y * b3;
       }

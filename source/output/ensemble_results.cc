@@ -52,7 +52,7 @@ namespace Voussoir
       return result + "\"";
     }
 
-    std::vector<double> values_of(const std::vector<const MotionResult *>               &motions,
+    std::vector<double> values_of(const std::vector<const MotionResult *>           &motions,
                                   const std::function<double(const MotionResult &)> &value)
     {
       std::vector<double> values;
@@ -97,13 +97,16 @@ namespace Voussoir
       return;
     const std::vector<double> medians = medians_of_samples(values);
     const auto                half_width = [&](const double share)
-    { return .5 * (percentile(medians, .5 + .5 * share) - percentile(medians, .5 - .5 * share)) / std::abs(median); };
+    {
+      return .5 * (percentile(medians, .5 + .5 * share) - percentile(medians, .5 - .5 * share)) /
+             std::abs(median);
+    };
     known_68 = half_width(.68);
     known_95 = half_width(.95);
     double sum = 0., squares = 0.;
     for (const double x : values)
       sum += std::log(std::abs(x)), squares += std::log(std::abs(x)) * std::log(std::abs(x));
-    const double n = values.size(), variance = std::max(0., squares - sum * sum / n) / (n - 1.);
+    const double     n = values.size(), variance = std::max(0., squares - sum * sum / n) / (n - 1.);
     constexpr double of_median = 1.2533 / .1; // sqrt(pi / 2): standard error of a median over that of a mean
     needed = std::max(1., std::ceil(of_median * of_median * variance - 1e-9));
   }
@@ -161,8 +164,8 @@ namespace Voussoir
     for (const MotionResult &motion : motions)
     {
       const bool ok = motion.failure.empty();
-      out << &motion - motions.data() + 1 << ',' << quoted(motion.name) << ',' << number_text(motion.factor) << ','
-          << (ok ? "ok" : quoted(motion.failure));
+      out << &motion - motions.data() + 1 << ',' << quoted(motion.name) << ',' << number_text(motion.factor)
+          << ',' << (ok ? "ok" : quoted(motion.failure));
       add(ok && motion.overstress >= 0. ? motion.overstress : unknown_value);
       const std::size_t n_extremes = complete == motions.end() ? 0 : complete->extremes.size();
       for (std::size_t k = 0; k < n_extremes; ++k)
@@ -178,8 +181,8 @@ namespace Voussoir
   void EnsembleResults::write_joints(const std::string &file, const DamGeometry &geometry) const
   {
     Table table;
-    table.columns = {"joint",    "s",           "opening_p16", "opening_median", "opening_p84",
-                     "slip_p16", "slip_median", "slip_p84"};
+    table.columns = {"joint",       "s",        "opening_p16", "opening_median",
+                     "opening_p84", "slip_p16", "slip_median", "slip_p84"};
     const auto of_factor = with_factor(factor());
     for (std::size_t j = 0; j < geometry.joints.size() && !of_factor.empty(); ++j)
     {
@@ -205,7 +208,8 @@ namespace Voussoir
       std::vector<float> median, p16, p84;
       for (std::size_t i = 0; i < first.size(); ++i)
       {
-        std::vector<double> values = values_of(of_factor, [&](const MotionResult &m) { return m.fields[k].second[i]; });
+        std::vector<double> values =
+            values_of(of_factor, [&](const MotionResult &m) { return m.fields[k].second[i]; });
         std::sort(values.begin(), values.end());
         median.push_back(percentile(values, .5));
         p16.push_back(percentile(values, .16));
@@ -226,8 +230,9 @@ namespace Voussoir
     Json       json;
     json.add("n", of_factor.size()).add("factor", factor);
     for (std::size_t k = 0; !of_factor.empty() && k < of_factor.front()->extremes.size(); ++k)
-      json.add(of_factor.front()->extremes[k].first,
-               Spread(values_of(of_factor, [&](const MotionResult &m) { return m.extremes[k].second; })).json());
+      json.add(
+          of_factor.front()->extremes[k].first,
+          Spread(values_of(of_factor, [&](const MotionResult &m) { return m.extremes[k].second; })).json());
     if (!of_factor.empty() && of_factor.front()->overstress >= 0.)
       json.add("overstress_seconds",
                Spread(values_of(of_factor, [](const MotionResult &m) { return m.overstress; })).json());

@@ -18,7 +18,7 @@ namespace Voussoir
 
     double length_of_slip(const Vector3 &moved)
     {
-      return std::hypot(moved[1], moved[2]);
+      return length(moved[1], moved[2]);
     }
   } // namespace
 

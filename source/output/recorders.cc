@@ -65,7 +65,7 @@ namespace Voussoir
       return {};
     const Vector3 up = integrator.opening_and_slip(pairs.upstream),
                   down = integrator.opening_and_slip(pairs.downstream);
-    return {{up[0], down[0], std::hypot(up[1], up[2]), std::hypot(down[1], down[2])}};
+    return {{up[0], down[0], length(up[1], up[2]), length(down[1], down[2])}};
   }
 
   double joint_pressure(const Structure &structure, const DynamicState &state, const unsigned int pair)
@@ -79,7 +79,7 @@ namespace Voussoir
     for (unsigned int p = 0; p < structure.pairs.size(); ++p)
     {
       const Vector3 d = integrator.opening_and_slip(p);
-      const double  s = std::hypot(d[1], d[2]);
+      const double  s = length(d[1], d[2]);
       reach.record(p, structure.pairs[p], d);
       points.record(p, d);
       if (d[0] > opening.value)

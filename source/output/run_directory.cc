@@ -26,7 +26,8 @@ namespace Voussoir
       static const std::regex motion("motion-[0-9]+");
       if (relative.empty() || !std::regex_match(relative.begin()->string(), motion))
         return relative;
-      return std::next(relative.begin()) == relative.end() ? fs::path() : relative.lexically_relative(*relative.begin());
+      return std::next(relative.begin()) == relative.end() ? fs::path()
+                                                           : relative.lexically_relative(*relative.begin());
     }
 
     /** Returns true if a run writes a file of this path, relative to its directory. */

@@ -115,8 +115,7 @@ namespace Voussoir
     for (unsigned int p = 0; p < dam.structure.pairs.size(); ++p)
     {
       const Vector3 d = integrator.opening_and_slip(p);
-      moved.raise(std::max(d[0], std::hypot(d[1], d[2])), integrator.state().time,
-                  dam.structure.pairs[p].place);
+      moved.raise(std::max(d[0], length(d[1], d[2])), integrator.state().time, dam.structure.pairs[p].place);
     }
     if (moved.value <= largest_joint_share * dam.size)
       return "";

@@ -32,9 +32,10 @@ namespace Voussoir
     envelope.faces = FaceEnvelope(*run.dam->model);
   }
 
-  StressObserver::StressObserver(const RunState &run, const JointRecorder &joints, const StressObserver &other)
-      : run(run), joints(joints), tractions(other.tractions), recovery(other.recovery), tension(other.tension),
-        envelope(*recovery, run.dam->initial_stress)
+  StressObserver::StressObserver(const RunState &run, const JointRecorder &joints,
+                                 const StressObserver &other)
+      : run(run), joints(joints), tractions(other.tractions), recovery(other.recovery),
+        tension(other.tension), envelope(*recovery, run.dam->initial_stress)
   {
     envelope.overstress = Overstress(run.scene().limits.static_strength(), run.dam->model->n_nodes());
     envelope.faces = other.envelope.faces;
@@ -79,8 +80,8 @@ namespace Voussoir
                                                    {"min_principal", envelope.minimum}};
     for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
       for (const bool largest : {true, false})
-        fields.push_back({FaceEnvelope::name(k, largest),
-                          envelope.faces.field(run.dam->model->n_nodes(), k, largest)});
+        fields.push_back(
+            {FaceEnvelope::name(k, largest), envelope.faces.field(run.dam->model->n_nodes(), k, largest)});
     return fields;
   }
 
@@ -148,10 +149,10 @@ namespace Voussoir
       return {};
     const SolidModel &model = *run.dam->model;
     NamedExtremes     result = {
-        {"max_tension_upstream", envelope.extreme(model, PhysicalId::upstream, true)},
-        {"max_tension_downstream", envelope.extreme(model, PhysicalId::downstream, true)},
-        {"max_compression", envelope.extreme(model, 0, false)},
-        {"max_compression_away_from_base", tension.smallest_away_from_base(envelope, model)}};
+            {"max_tension_upstream", envelope.extreme(model, PhysicalId::upstream, true)},
+            {"max_tension_downstream", envelope.extreme(model, PhysicalId::downstream, true)},
+            {"max_compression", envelope.extreme(model, 0, false)},
+            {"max_compression_away_from_base", tension.smallest_away_from_base(envelope, model)}};
     for (const auto &[name, surface] :
          {std::make_pair(std::string("max_tension_upstream"), PhysicalId::upstream),
           {"max_tension_downstream", PhysicalId::downstream}})

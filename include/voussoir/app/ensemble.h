@@ -26,17 +26,17 @@ namespace Voussoir
     void run();
 
   private:
-    void        load();
-    void        save();
-    void        begin_files();
-    void        run_one_by_one(const std::string &reason);
-    void        run_batches();
-    void        run_one(std::size_t number, bool keep_tables);
-    void        run_batch(BatchRun &batch, const std::vector<std::size_t> &numbers, bool is_first);
-    void        add(std::size_t number, MotionResult result);
-    void        finish();
+    void              load();
+    void              save();
+    void              begin_files();
+    void              run_one_by_one(const std::string &reason);
+    void              run_batches();
+    void              run_one(std::size_t number, bool keep_tables);
+    void              run_batch(BatchRun &batch, const std::vector<std::size_t> &numbers, bool is_first);
+    void              add(std::size_t number, MotionResult result);
+    void              finish();
     [[noreturn]] void throw_interrupted() const;
-    std::string directory_of(std::size_t number) const;
+    std::string       directory_of(std::size_t number) const;
 
     const SceneOf                     scene_of;
     const std::vector<EnsembleMember> members;

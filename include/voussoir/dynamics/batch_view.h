@@ -45,22 +45,23 @@ namespace Voussoir
     const float         *of_ground;    ///< load by acceleration of the base, 9 per node [kg]
     const BatchPair     *pairs;
 
-    float h;                                                         ///< [s]
-    float weight[most_terms], decay[most_terms], growth[most_terms]; ///< of Damping: c [-]; of d in a step: [-], [s]
-    float jolt;                                                      ///< displacement w by a change of velocity [s]
+    float h; ///< [s]
+    float weight[most_terms], decay[most_terms],
+        growth[most_terms]; ///< of Damping: c [-]; of d in a step: [-], [s]
+    float jolt;             ///< displacement w by a change of velocity [s]
   };
 
   /** State of a batch: arrays with one value per lane for each component. */
   struct BatchState
   {
-    float *u, *v;          ///< increment of the displacement [m], velocity [m/s]
-    float *w;              ///< displacement with memory of the damping [m]
-    float *f;              ///< elastic forces [N]
-    float *d;              ///< memory of the damping: n_terms for each component [m]
-    float *gap, *moved;    ///< opening and slips of each pair [m]; their changes in the last step
-    float *impulse;        ///< sum of the joint forces since the start of the time step [N]
-    double (*works)[16];   ///< input, internal, opening, friction [J], each with one value per lane
-    float ground[3 * 16];  ///< acceleration of the base, by lane [m/s^2]
+    float *u, *v;         ///< increment of the displacement [m], velocity [m/s]
+    float *w;             ///< displacement with memory of the damping [m]
+    float *f;             ///< elastic forces [N]
+    float *d;             ///< memory of the damping: n_terms for each component [m]
+    float *gap, *moved;   ///< opening and slips of each pair [m]; their changes in the last step
+    float *impulse;       ///< sum of the joint forces since the start of the time step [N]
+    double (*works)[16];  ///< input, internal, opening, friction [J], each with one value per lane
+    float ground[3 * 16]; ///< acceleration of the base, by lane [m/s^2]
   };
 } // namespace Voussoir
 

@@ -27,7 +27,8 @@ namespace Voussoir
      * @param u, load static displacement [m] and constant loads [N]
      * @param closed jumps at which the pairs are closed [m] */
     BatchModel(const Structure &structure, const JointLaws &laws, double dt, unsigned int n_steps,
-               const std::array<Unknowns, 3> &inertia, const Unknowns &u, const Unknowns &load, const Unknowns &closed);
+               const std::array<Unknowns, 3> &inertia, const Unknowns &u, const Unknowns &load,
+               const Unknowns &closed);
 
     BatchView view() const; ///< arrays for the kernels
 
@@ -76,12 +77,12 @@ namespace Voussoir
     double memory() const; ///< [bytes]
 
   private:
-    const BatchModel                   &model;
-    const BatchView                     view;
-    const unsigned int                  lanes;
-    dealii::AlignedVector<float>        u, v, w, f, d, gap, moved, impulse;
-    double                              works[4][16] = {}; ///< see BatchState
-    double                              time = 0.;
+    const BatchModel            &model;
+    const BatchView              view;
+    const unsigned int           lanes;
+    dealii::AlignedVector<float> u, v, w, f, d, gap, moved, impulse;
+    double                       works[4][16] = {}; ///< see BatchState
+    double                       time = 0.;
   };
 
   /** Lane of a batch as the state of a run: for observers of results. */
@@ -89,8 +90,8 @@ namespace Voussoir
   {
   public:
     /** @p force: joint forces of the static state [N]. The other arguments must outlive the object. */
-    LaneIntegrator(const MotionBatch &batch, const BatchModel &model, const JointLaws &laws, const Unknowns &force,
-                   unsigned int lane);
+    LaneIntegrator(const MotionBatch &batch, const BatchModel &model, const JointLaws &laws,
+                   const Unknowns &force, unsigned int lane);
 
     /** Reads the state of the lane. @p with_energy: also the kinetic energy. */
     void read(bool with_energy);

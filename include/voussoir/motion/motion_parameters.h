@@ -145,10 +145,10 @@ namespace Voussoir
   /** Motion of "Ensemble". */
   struct EnsembleMember
   {
-    std::string                        name;               ///< as MotionParameters::name_of_part()
-    double                             factor = 1.;        ///< of "Ensemble factors" [-]
-    MotionParameters                   motion;             ///< this motion alone
-    std::map<std::string, std::string> entries;            ///< "Section/Entry" and value that make it the only motion
+    std::string                        name;        ///< as MotionParameters::name_of_part()
+    double                             factor = 1.; ///< of "Ensemble factors" [-]
+    MotionParameters                   motion;      ///< this motion alone
+    std::map<std::string, std::string> entries; ///< "Section/Entry" and value that make it the only motion
     bool                               has_output = false; ///< "Ensemble output" contains its number
   };
 

@@ -83,7 +83,7 @@ namespace Voussoir
     const LimitParameters                            limits;
     std::vector<Verdict>                             verdicts;
     std::vector<std::pair<std::string, std::string>> unevaluated; ///< limits and reasons
-    std::optional<double>                            longest; ///< see overstress_seconds()
+    std::optional<double>                            longest;     ///< see overstress_seconds()
     std::optional<Json>                              overstress, waterstop, residual, keys;
   };
 

@@ -11,14 +11,14 @@ namespace Voussoir
   {
     template <class T> using Named = std::vector<std::pair<std::string, T>>;
 
-    std::string               name;              ///< of the motion
-    double                    factor = 1.;       ///< of "Motion/Ensemble factors" [-]
-    std::string               failure;           ///< reason without results; empty: complete
-    Named<double>             extremes;          ///< members of "extremes" in summary.json [m], [Pa]
-    std::vector<double>       openings, slips;   ///< largest of each joint at the crest [m]
-    double                    overstress = 0.;   ///< Assessment::overstress_seconds() [s]; -1: no strength
-    Named<bool>               limits;            ///< whether each evaluated limit is satisfied
-    Named<std::vector<float>> fields;            ///< envelopes of the stresses at the nodes of the model [Pa]
+    std::string               name;            ///< of the motion
+    double                    factor = 1.;     ///< of "Motion/Ensemble factors" [-]
+    std::string               failure;         ///< reason without results; empty: complete
+    Named<double>             extremes;        ///< members of "extremes" in summary.json [m], [Pa]
+    std::vector<double>       openings, slips; ///< largest of each joint at the crest [m]
+    double                    overstress = 0.; ///< Assessment::overstress_seconds() [s]; -1: no strength
+    Named<bool>               limits;          ///< whether each evaluated limit is satisfied
+    Named<std::vector<float>> fields;          ///< envelopes of the stresses at the nodes of the model [Pa]
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
