@@ -201,10 +201,10 @@ namespace Voussoir
 
   void EnsembleRun::run_batches()
   {
-    const BatchModel    model(state.dam->structure, state.dam->layout.laws, state.motion.dt, scene.n_explicit,
-                              state.dam->inertia, state.statics.u, state.statics.constant_load(),
-                              state.statics.closed);
-    const JointObserver joints(state);
+    const BatchModel model(
+        state.dam->structure, state.dam->layout.laws, state.motion.dt, scene.n_explicit,
+        {state.dam->inertia, state.statics.u, state.statics.constant_load(), state.statics.closed});
+    const JointObserver  joints(state);
     const StressObserver stresses(state, joints.joints);
     lanes = MotionBatch::n_lanes();
     std::vector<std::vector<std::size_t>> batches;

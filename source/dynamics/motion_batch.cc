@@ -74,9 +74,8 @@ namespace Voussoir
   }
 
   BatchModel::BatchModel(const Structure &structure, const JointLaws &laws, const double dt,
-                         const unsigned int n_steps, const std::array<Unknowns, 3> &inertia,
-                         const Unknowns &u, const Unknowns &load, const Unknowns &closed)
-      : structure(structure), dt(dt), n_steps(n_steps), u_static(u), closed(closed), sizes()
+                         const unsigned int n_steps, const Start &start)
+      : structure(structure), dt(dt), n_steps(n_steps), u_static(start.u), closed(start.closed), sizes()
   {
     const double   h = dt / n_steps;
     const Damping &damping = structure.damping;
@@ -95,7 +94,7 @@ namespace Voussoir
     }
     sizes.jolt = jolt;
     add_stiffness();
-    add_nodes(inertia, load);
+    add_nodes(start);
     std::vector<Matrix3> inverse_masses;
     for (const Matrix3 &mass : structure.mass)
       inverse_masses.push_back(inverse(mass));
@@ -128,7 +127,7 @@ namespace Voussoir
     body.push_back(structure.n_nodes());
   }
 
-  void BatchModel::add_nodes(const std::array<Unknowns, 3> &inertia, const Unknowns &load)
+  void BatchModel::add_nodes(const Start &start)
   {
     Unknowns Ku;
     structure.multiply_stiffness(u_static, Ku);
@@ -142,11 +141,11 @@ namespace Voussoir
       {
         inverse_mass.push_back(by_force[c]);
         off += c % 4 == 0 ? 0. : std::abs(by_force[c]);
-        of_ground.push_back(inertia[c % 3][3 * i + c / 3]);
+        of_ground.push_back(start.inertia[c % 3][3 * i + c / 3]);
       }
       is_full.push_back(off > 0.);
       for (unsigned int c = 0; c < 3; ++c)
-        residual.push_back(load[3 * i + c] - Ku[3 * i + c]);
+        residual.push_back(start.load[3 * i + c] - Ku[3 * i + c]);
     }
   }
 

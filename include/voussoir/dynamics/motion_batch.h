@@ -19,16 +19,22 @@ namespace Voussoir
     /** Returns the reason why a structure has no batches, for a sentence after "because", or an empty text. */
     static std::string why_not(const Structure &structure, const JointLaws &laws);
 
+    /** Static state and loads of a structure. */
+    struct Start
+    {
+      const std::array<Unknowns, 3> &inertia; ///< loads of a unit acceleration of the base in x, y and z [kg]
+      const Unknowns                &u;       ///< displacement [m]
+      Unknowns                       load;    ///< constant loads [N]
+      const Unknowns                &closed;  ///< jumps at which the pairs are closed [m]
+    };
+
     /** @param structure, laws as in Leapfrog, which batches agree with; why_not() is empty. The structure must outlive
      * the object.
      * @param dt time step of MotionBatch::advance() [s]
      * @param n_steps number of steps h in dt
-     * @param inertia loads of a unit acceleration of the base in x, y and z [kg]
-     * @param u, load static displacement [m] and constant loads [N]
-     * @param closed jumps at which the pairs are closed [m] */
+     * @param start static state */
     BatchModel(const Structure &structure, const JointLaws &laws, double dt, unsigned int n_steps,
-               const std::array<Unknowns, 3> &inertia, const Unknowns &u, const Unknowns &load,
-               const Unknowns &closed);
+               const Start &start);
 
     BatchView view() const; ///< arrays for the kernels
 
@@ -40,7 +46,7 @@ namespace Voussoir
 
   private:
     void add_stiffness();
-    void add_nodes(const std::array<Unknowns, 3> &inertia, const Unknowns &load);
+    void add_nodes(const Start &start);
     void add_pair(const Pair &pair, const JointLaw &law, const std::vector<Matrix3> &inverse_mass);
 
     BatchView                  sizes; ///< without arrays
