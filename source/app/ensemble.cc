@@ -50,6 +50,7 @@ namespace Voussoir
       throw InputError(
           "\"Motion/Ensemble\" runs in one process. Use threads (OMP_NUM_THREADS), or remove the entry.");
     prepare(motions_of(members));
+    log.line("Ensemble  %zu motions; the motion above is the first one, %s", members.size(), members[0].name.c_str());
     if (options.validate)
       return;
     if (options.resume)
