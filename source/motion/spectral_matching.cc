@@ -132,32 +132,59 @@ namespace Voussoir
           return;
         for (double &entry : gradient)
           entry /= norm;
+        of.push_back({gradients.size(), no_sample, value / norm, slack});
         gradients.push_back(std::move(gradient));
-        values.push_back(value / norm);
-        slacks.push_back(slack);
+      }
+
+      /** Adds the condition that the change of a sample is @p value. */
+      void add_sample(const std::size_t sample, const double value, const double slack)
+      {
+        if (root_weight[sample] > 0.)
+          of.push_back({0, sample, value / root_weight[sample], slack});
       }
 
       /** Returns the smallest change, in the norm weighted by 1/envelope, that satisfies the conditions. */
       Vector least_change() const
       {
-        std::vector<Vector> gram = products_of(gradients);
-        for (std::size_t i = 0; i < gradients.size(); ++i)
-          gram[i][i] = 1. + slacks[i];
+        std::vector<Vector>       gram(of.size(), Vector(of.size(), 0.));
+        const std::vector<Vector> products = products_of(gradients);
+        Vector                    values;
+        for (std::size_t i = 0; i < of.size(); ++i)
+        {
+          for (std::size_t j = 0; j < i; ++j)
+            if (of[i].sample == no_sample && of[j].sample == no_sample)
+              gram[i][j] = products[of[i].gradient][of[j].gradient];
+            else if (of[i].sample == no_sample)
+              gram[i][j] = gradients[of[i].gradient][of[j].sample];
+            else if (of[j].sample == no_sample)
+              gram[i][j] = gradients[of[j].gradient][of[i].sample];
+          gram[i][i] = 1. + of[i].slack;
+          values.push_back(of[i].value);
+        }
         const Vector multipliers = solve(std::move(gram), values);
 
         Vector change(root_weight.size(), 0.);
-        for (std::size_t i = 0; i < gradients.size(); ++i)
-          for (std::size_t k = 0; k < change.size(); ++k)
-            change[k] += multipliers[i] * gradients[i][k];
+        for (std::size_t i = 0; i < of.size(); ++i)
+          if (of[i].sample != no_sample)
+            change[of[i].sample] += multipliers[i];
+          else
+            for (std::size_t k = 0; k < change.size(); ++k)
+              change[k] += multipliers[i] * gradients[of[i].gradient][k];
         for (std::size_t k = 0; k < change.size(); ++k)
           change[k] *= root_weight[k];
         return change;
       }
 
     private:
-      Vector              root_weight;
-      std::vector<Vector> gradients;
-      Vector              values, slacks;
+      static constexpr std::size_t no_sample = -1;
+      struct Condition
+      {
+        std::size_t gradient, sample; ///< index in #gradients; no_sample, or the only sample that is not zero
+        double      value, slack;
+      };
+      Vector                 root_weight;
+      std::vector<Vector>    gradients;
+      std::vector<Condition> of;
     };
 
     constexpr double exactly = 1e-12; // slack of conditions that must hold
@@ -186,11 +213,7 @@ namespace Voussoir
       const auto largest = std::max_element(acceleration.begin(), acceleration.end(), smaller);
       for (auto a = acceleration.begin(); a != acceleration.end(); ++a)
         if (a == largest || std::abs(*a) > peak)
-        {
-          Vector gradient(acceleration.size(), 0.);
-          gradient[a - acceleration.begin()] = 1.;
-          conditions.add(std::move(gradient), std::copysign(peak, *a) - *a, exactly);
-        }
+          conditions.add_sample(a - acceleration.begin(), std::copysign(peak, *a) - *a, exactly);
     }
 
     void add_change(Vector &acceleration, const Vector &change)
