@@ -97,7 +97,7 @@ namespace Voussoir
         joints->record();
         stability->record();
       }
-      catch (const ComputationError &error)
+      catch (const std::exception &error) // must not leave the parallel region of BatchRun::advance()
       {
         failure = error.what();
       }
