@@ -217,7 +217,8 @@ def path_of(value, study):
 # Settings of a motion in a file with unit, scale and corrections of a scene.
 AS_IT_IS = {"Motion/Source": "file", "Motion/File x": "", "Motion/File y": "", "Motion/File z": "", "Motion/File step": 0, "Motion/Azimuths": "",
             "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1, "Motion/Scale z": 1,
-            "Motion/Sequence": "", "Motion/Ensemble": "", "Motion/Ensemble factors": "", "Motion/Ensemble output": "", "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false"}
+            "Motion/Sequence": "", "Motion/Ensemble": "", "Motion/Ensemble factors": "", "Motion/Ensemble output": "",
+            "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false"}
 
 
 def is_file_entry(entry):
@@ -239,7 +240,9 @@ def with_paths(entry, text, directory):
     if entry not in ("Motion/Sequence", "Motion/Ensemble", "Motion/Abutments"):
         return text, []
     words = [word.strip() for word in re.split("([;,]|(?:right|left) [^:;]*:)" if entry == "Motion/Abutments" else "([;,])", text)]
-    paths = {word: str((directory / word).resolve()) for word in words if word not in ("", ";", ",", "-") and not re.fullmatch(r"\d+(\s*-\s*\d+)?", word) and word[-1] != ":"}
+    seed = re.compile(r"\d+(\s*-\s*\d+)?")
+    paths = {word: str((directory / word).resolve()) for word in words
+             if word not in ("", ";", ",", "-") and not seed.fullmatch(word) and word[-1] != ":"}
     return " ".join(paths.get(word, word) for word in words), list(paths.values())
 
 
