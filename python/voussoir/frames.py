@@ -87,6 +87,6 @@ def edges_of(frames):
 
 
 def joint_of(surface):
-    """Joint of a surface 10000 + j or 20000 + j (before version 0.5 100 + j or 200 + j); 0 for other surfaces."""
+    """Joint of a surface 10000 + j or 20000 + j (before version 0.6 100 + j or 200 + j); 0 for other surfaces."""
     size = 10000 if surface > 10000 else 100
     return surface % size if size < surface < 3 * size else 0

@@ -116,7 +116,7 @@ namespace Voussoir
     /** Entries that were removed without an effect on results: what to use instead. */
     const std::map<std::string, std::string> removed = {
         {"Dynamics/Error estimate",
-         "was removed in version 0.5.0, which does not change the results. Remove the entry, and use `voussoir "
+         "was removed in version 0.6.0, which does not change the results. Remove the entry, and use `voussoir "
          "accuracy` to estimate the error of the time step."}};
 
     /** Returns the declaration of an entry. Throws InputError, with the most similar one, for an unknown
