@@ -9,9 +9,10 @@ import numpy as np
 
 from . import picture
 from .errors import InputError
-from .drawing import (DIRECTIONS, DOWNSTREAM, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
-                      draw_crest, draw_crest_bars, draw_energy, draw_face, draw_joint_history, draw_spectrum, energy_parts, energy_unit,
-                      plt, stress_bar, worst_joints)
+from .drawing import (DIRECTIONS, LIMIT, aspect, common_levels, common_top, demand_bar, draw_base, draw_crest, draw_crest_bars, draw_demand,
+                      draw_energy, draw_face, draw_joint_history, draw_motion_spectrum, draw_overstress, draw_spectrum, energy_parts, energy_unit, plt,
+                      static_strength, stress_bar, worst_joints)
+from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
 from .mode_shapes import draw_shape
 from .palette import line
 from .runs import NotComputed, Skip
@@ -127,6 +128,13 @@ def spectra(run, top):
                 axes[0].set_ylim(top / 60., 1.4 * top)
             images[direction] = made
     return images
+
+
+def motion_spectrum(run):
+    @panel(2.3)
+    def made(_, axes):
+        draw_motion_spectrum(axes[0], run.table("spectrum.csv"))
+    return made
 
 
 def deviation(table):
@@ -272,24 +280,40 @@ def directed_face(run, name, column, runs):
     return made
 
 
-def overstress(run):
-    """Cumulative duration of overstress over the demand-capacity ratio, against what is allowed."""
-    found = run.summary.get("overstress")
-    if not found:
-        raise Skip("no tensile strength is given (Limits/Static tensile strength)")
-    allowed = run.limit("Overstress duration")
+def demand(run, name):
+    @panel(1.15 + 0.98 * NARROW * aspect(run), "png")
+    def made(figure, axes):
+        demand_bar(figure, draw_demand(axes[0], run, name, static_strength(run)), axes[0], aspect=42, fraction=0.06, pad=0.02)
+    return made
 
+
+def overstress(run):
     @panel(2.5)
     def made(_, axes):
-        axes = axes[0]
-        for name, colour in (("upstream", UPSTREAM), ("downstream", DOWNSTREAM)):
-            duration = found[name].get("duration_away_from_base", found[name]["duration"])  # the latter of earlier versions
-            axes.plot(found["levels"], duration, color=colour, marker="o", markersize=3, label=name)
-        if allowed > 0.:
-            axes.plot([1., 2.], [allowed, 0.], **LIMIT, label="allowed")
-        axes.set(xlabel="principal stress over static tensile strength [-]", ylabel="cumulative duration [s]", xlim=(0.98, 2.02))
-        axes.set_ylim(bottom=0.)
-        axes.legend(loc="upper right")
+        draw_overstress(axes[0], run)
+    return made
+
+
+# ---------------------------------------------------------------- many motions
+
+def joint_band(run, quantity):
+    @panel(2.7)
+    def made(_, axes):
+        draw_joint_band(axes[0], run, quantity)
+    return made
+
+
+def distribution(run, measure):
+    @panel(2.5)
+    def made(_, axes):
+        draw_distribution(axes[0], run, measure)
+    return made
+
+
+def dynamic_analysis(run, measure):
+    @panel(2.9)
+    def made(_, axes):
+        draw_dynamic_analysis(axes[0], run, measure)
     return made
 
 
