@@ -144,7 +144,7 @@ def finish_face(axes, run, name, values, words):
     away = away_from_base(run)[name]
     if away.any():
         worst = np.flatnonzero(away)[values[away].argmax()]
-        text = f"{words(worst)} away from the base, at s = {s[worst] + 0.:.0f} m, z = {z[worst] + 0.:.0f} m"
+        text = f"{words(worst)} at s = {s[worst] + 0.:.0f} m, z = {z[worst] + 0.:.0f} m"
         axes.plot(s[worst], z[worst], marker="o", markersize=6, markerfacecolor="#ffd966", markeredgecolor="k", clip_on=False, zorder=5,
                   linestyle="none", label=minus(text).replace("\N{MINUS SIGN}0 m", "0 m"))
         axes.legend(loc="upper center", handletextpad=0.1, borderaxespad=0)
@@ -187,11 +187,6 @@ def draw_overstress(axes, run):
     axes.set(xlabel="principal stress over static tensile strength [-]", ylabel="cumulative duration [s]", xlim=(0.98, 2.02))
     axes.set_ylim(bottom=0.)
     axes.legend(loc="upper right")
-
-
-def static_strength(run):
-    """Static tensile strength of the scene [Pa], as the program takes it; 0 if there is none."""
-    return run.limit("Static tensile strength") or 2. / 3. * run.limit("Tensile strength")
 
 
 # ---------------------------------------------------------------- joints

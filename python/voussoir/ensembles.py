@@ -84,7 +84,8 @@ class Ensemble:
     @cached_property
     def failed(self):
         """(name, status) of the motions without results."""
-        return [(name, status) for name, status in zip(self.motions["name"], self.motions["status"]) if status != "ok"]
+        factors = [f", factor {x:g}" if len(self.factors) > 1 else "" for x in self.motions["factor"]]
+        return [(name + factor, status) for name, factor, status in zip(self.motions["name"], factors, self.motions["status"]) if status != "ok"]
 
     @cached_property
     def extremes(self):
@@ -95,8 +96,8 @@ class Ensemble:
         """Fractiles of the extremes for each factor, ascending: [(factor, {name: ...})]."""
         listed = self.found.get("factors")
         listed = listed if isinstance(listed, list) and listed else [self.found]
-        return sorted(((float(one.get("factor", 1.)), {name: found for name, found in one.items() if isinstance(found, dict) and is_number(found.get("median"))})
-                       for one in listed if isinstance(one, dict)), key=lambda pair: pair[0])
+        extremes = lambda one: {name: found for name, found in one.items() if isinstance(found, dict) and is_number(found.get("median"))}
+        return sorted(((float(one.get("factor", 1.)), extremes(one)) for one in listed if isinstance(one, dict)), key=lambda pair: pair[0])
 
     def curves(self, quantity):
         """Largest openings or slips [m] of the joints, a row for each motion with results."""

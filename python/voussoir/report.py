@@ -34,6 +34,9 @@ from .runs import NotComputed, Run, Skip, name_apart, refuse_links
 STUDY = ("title", "owner", "author", "date")  # options with the texts of the title page
 
 
+MARKED = "Marked: the largest value away from the base."
+
+
 class Page:
     """Text of the page, and what could not be shown."""
 
@@ -133,7 +136,7 @@ def what_was_analysed(page, runs):
     page.add('<dl class="analysed">' + "".join(f"<dt>{title}</dt><dd>{escape(found[0][title])}</dd>" for title in same) + "</dl>")
     if apart := [title for title in titles if title not in same]:
         page.add(table(["run", *apart], [((run.name, *(rows.get(title, "–") for title in apart)), False) for run, rows in zip(runs, found)]))
-    pictured = {str(run.summary.get("mesh", {})): run for run in reversed(runs)}
+    pictured = {str([run.summary.get("mesh", {}).get(key) for key in ("cells", "volume", "crest_length")]): run for run in reversed(runs)}
     shown = [run for run in runs if run in pictured.values()]
     panels = [(named(shown, run), f"mesh of {run.name}", lambda run=run: figures.dam(run)) for run in shown]
     caption = "The dam, seen from downstream, the right bank at the left; heavy lines are joints."
@@ -253,8 +256,8 @@ def motion(page, runs):
         images = page.made("spectra", lambda run=run: figures.spectra(run, top)) if top else None
         if images:
             damping = 100. * run.table("spectrum.csv")["damping"][0]
-            page.row(f"Response spectra of the {'first ' if run.ensemble else ''}motion{' of ' + escape(run.name) if len(moving) > 1 else ''}, damping {damping:g} %"
-                     f"{target_words(page, run)}.",
+            of = f" of {escape(run.name)}" if len(moving) > 1 else ""
+            page.row(f"Response spectra of the {'first ' if run.ensemble else ''}motion{of}, damping {damping:g} %{target_words(page, run)}.",
                      [("", f"response spectrum, {figures.DIRECTIONS[d]}", lambda source=source: source) for d, source in images.items()])
 
 
@@ -305,7 +308,8 @@ def scatter(page, runs, several):
                      [("", f"{quantity}s of {run.name}", lambda run=run, q=quantity: figures.joint_band(run, q)) for quantity in ("opening", "slip")])
         measures = (["max_opening"] if not run.tied else []) + ["tension"]
         page.row(f"Share of the motions{of} up to a value.",
-                 [("", f"distribution of {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.distribution(run, m)) for measure in measures])
+                 [("", f"distribution of {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.distribution(run, m))
+                  for measure in measures])
         if len(run.ensemble.factors) > 1:
             page.row(f"Incremental dynamic analysis{of}: factor of the motions, and largest value.",
                      [("", f"dynamic analysis, {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.dynamic_analysis(run, m))
@@ -318,18 +322,19 @@ def stresses(page, runs):
     for column, kind in (("max_principal", "Largest principal stress"), ("min_principal", "Smallest principal stress")):
         heavy = "; the heavy line is the tensile strength" if strength and column == "max_principal" else ""
         median = f"; {'of many motions ' if len(runs) > 1 else ''}the median over the motions" if any(run.ensemble for run in runs) else ""
-        page.row(f"{kind} of every point over time{median}, self-weight included, on the developed faces{heavy}.",
+        page.row(f"{kind} of every point over time{median}, self-weight included, on the developed faces{heavy}. {MARKED}",
                  [(named(runs, run, f"{name} face"), f"{kind.lower()}, {name} face of {run.name}",
                    lambda run=run, name=name, column=column: figures.face(run, name, column, runs))
                   for run in runs for name in ("upstream", "downstream")])
     directed = page.made("arch and cantilever stresses", lambda: figures.directed(runs)) or []
     for column, kind in (("arch_stress_max", "arch"), ("cantilever_stress_max", "cantilever")):
-        page.row(f"Largest {kind} stress of every point over time, on the developed faces.",
+        page.row(f"Largest {kind} stress of every point over time, on the developed faces. {MARKED}",
                  [(named(runs, run, f"{name} face"), f"{kind} stress, {name} face of {run.name}",
                    lambda run=run, name=name, column=column: figures.directed_face(run, name, column, directed))
                   for run in directed for name in ("upstream", "downstream")])
-    strong = [run for run in runs if figures.static_strength(run) > 0.]
-    page.row("Demand-capacity ratio of every point: largest principal stress over the static tensile strength; heavy lines: 1 and 2 (USACE EM 1110-2-6053).",
+    strong = [run for run in runs if run.static_strength > 0. and (run.directory / "faces.csv").exists()]
+    page.row("Demand-capacity ratio of every point: largest principal stress over the static tensile strength; heavy lines: 1 and 2 (USACE EM 1110-2-6053). "
+             + MARKED,
              [(named(runs, run, f"{name} face"), f"demand-capacity ratio, {name} face of {run.name}", lambda run=run, name=name: figures.demand(run, name))
               for run in strong for name in ("upstream", "downstream")])
     runs = single(runs)

@@ -12,7 +12,7 @@ from .ensembles import SCATTER
 from .errors import InputError
 from .picture import read_solution
 from .report_scene import entry, left_out
-from .report_tables import MINUS, bar_words, html_table, items, limits_of, number, verdict, with_unit
+from .report_tables import MINUS, bar_words, exceedances, html_table, items, limits_of, number, verdict, with_unit
 from .runs import NotComputed, Skip, refuse_links
 
 # Dynamic tensile strength of dam concrete if the scene gives none [Pa]: a tenth of the dynamic compressive strength (DL 5073-2000), which
@@ -23,9 +23,9 @@ CLOSED = 0.01  # of its largest opening: a joint below is closed
 
 def strength_of(run):
     """Dynamic tensile strength [Pa], and where it is from."""
-    for entry in ("Limits/Tensile strength", "Output/Tensile strength"):
-        if (value := run.value(entry)) > 0.:
-            return value, entry
+    for name in ("Limits/Tensile strength", "Output/Tensile strength"):
+        if (value := run.value(name)) > 0.:
+            return value, name
     return USUAL_STRENGTH, ""
 
 
@@ -187,8 +187,8 @@ def with_spread(item):
     """Value of an item, with its band over motions or its error bar."""
     text = number(item.magnitude, item.unit)
     if item.band:
-        return f'{text} <span class="unit">({" to ".join(number(end, item.unit) for end in sorted(map(abs, item.band)))})</span>'
-    return f'{text} <span class="unit">{bar_words(item)}</span>' if item.bar else text
+        return f'{text} <span class="unit band">({" to ".join(number(end, item.unit) for end in sorted(map(abs, item.band)))})</span>'
+    return f'{text} <span class="unit band">{bar_words(item)}</span>' if item.bar else text
 
 
 def closing_words(run, found):
@@ -205,16 +205,19 @@ def closing_words(run, found):
 
 def limit_words(run):
     """How many limits are exceeded or undecided, and the state."""
+    if run.ensemble and (rows := exceedances(run)):
+        worst = max(rows, key=lambda row: row[2])
+        return (f"exceeded in {worst[2]} of {worst[3]} motions", "exceeded") if worst[2] else ("satisfied", "satisfied")
     state, _ = verdict(run)
     if not limits_of(run):
         return "none given"
-    return {"exceeded": ("exceeded", "exceeded"), "undecided": ("undecided", "undecided"), "satisfied": ("satisfied", "satisfied")}.get(state, "not all evaluated")
+    return (state, state) if state else "not all evaluated"
 
 
 def compared(runs):
     """One table over several runs: a row for each, a column for each answer."""
-    heads = [("run", ""), ("opening [mm]", "n"), ("slip [mm]", "n"), ("do joints close again?", ""), ("tension upstream [MPa]", "n"), ("downstream [MPa]", "n"),
-             ("over the strength", "n"), ("limits", ""), ("checks", "")]
+    heads = [("run", ""), ("opening [mm]", "n"), ("slip [mm]", "n"), ("joints close again?", ""), ("tension upstream [MPa]", "n"),
+             ("tension downstream [MPa]", "n"), ("over the strength", "n"), ("limits", ""), ("checks", "")]
     rows = []
     for run in runs:
         found = items(run)
@@ -246,10 +249,12 @@ def notes(runs):
     sentences.append(text)
     sentences += [f"<b>{escape(run.name)}.</b> {escape(verdict(run)[1])}" for run in runs if limits_of(run) and verdict(run)[0] != "satisfied"]
     if any(item.band for run in runs for item in items(run).values()):
-        sentences.append("In brackets: 16 to 84 % of many motions, about their median.")
+        sentences.append("Of many motions the table has the median, and in brackets 16 to 84 %.")
     sentences += list(dict.fromkeys(filter(None, map(scatter, runs))))[:1]
-    sentences += list(dict.fromkeys(escape(left_out(run)) for run in runs))[:1] if len({left_out(run) for run in runs}) == 1 else [
-        f"<b>{escape(run.name)}.</b> {escape(left_out(run))}" for run in runs]
+    of_runs = {}
+    for run in runs:
+        of_runs.setdefault(left_out(run), []).append(run.name)
+    sentences += [(f"<b>{escape(', '.join(names))}.</b> " if len(of_runs) > 1 else "") + escape(text) for text, names in of_runs.items()]
     return "".join(f"<p>{text}</p>" for text in sentences)
 
 

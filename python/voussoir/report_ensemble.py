@@ -6,21 +6,14 @@ from html import escape
 from .ensembles import is_number, percent
 from .errors import InputError
 from .report_answers import closing, failed_checks, strength_of, validity
-from .report_tables import AWAY, EXTREMES, html_table, items, number, with_unit
+from .report_tables import AWAY, EXTREMES, exceedances, html_table, items, number, with_unit
 from .runs import Run
 
 
-def spread(found, unit, bold=True):
-    """Median, band and range of an extreme in words."""
-    value = lambda name: number(abs(found[name]), unit)
-    between = lambda low, high: " to ".join(number(x, unit) for x in sorted((abs(found[low]), abs(found[high]))))
-    median = f"{value('median')} {unit}".strip()
-    text = f"<b>{median}</b>" if bold else median
-    if is_number(found.get("p16")) and is_number(found.get("p84")):
-        text += f", 16 to 84 % of the motions {between('p16', 'p84')} {unit}".rstrip()
-    if is_number(found.get("min")) and is_number(found.get("max")):
-        text += f", all {between('min', 'max')} {unit}".rstrip()
-    return text
+def band(found, unit):
+    """Median of an extreme, and in brackets 16 to 84 % of the motions."""
+    ends = ends_of(found, ("p16", "p84"), unit)
+    return f"{number(abs(found['median']), unit)} {unit} ({' to '.join(ends)})"
 
 
 def opening(run):
@@ -28,14 +21,14 @@ def opening(run):
     found = run.ensemble.extremes
     if "max_opening" not in found or run.tied:
         return "There are no joints that can open."
-    text = f"In the median by at most {spread(found['max_opening'], 'mm')}"
+    one = found["max_opening"]
+    text = (f"By <b>{number(one['median'], 'mm')} mm</b> in the median, {' to '.join(ends_of(one, ('p16', 'p84'), 'mm'))} mm from 16 to 84 % of the motions, "
+            f"{' to '.join(ends_of(one, ('min', 'max'), 'mm'))} mm in all")
     if (joints := run.ensemble.joints) is not None:
         worst = int(joints["opening_median"].argmax())
         text += f"; {escape(run.joint_name(int(joints['joint'][worst])))} opens most"
     text += f". {escape(run.ensemble.known())}"
-    if "max_slip" in found:
-        text += f" Slip: {spread(found['max_slip'], 'mm', False)}."
-    return text
+    return text + (f" Slip: {band(found['max_slip'], 'mm')}." if "max_slip" in found else "")
 
 
 def closing_of_singles(run):
@@ -70,9 +63,10 @@ def stresses(run):
     faces, found = tensions(run), run.ensemble.extremes
     if not faces:
         return "They were not recorded (Output/Envelope interval)."
-    text = "Tension in the median " + "; ".join(f"{face} {spread(found[key], 'MPa')}" for face, key in faces.items())
+    text = "Tension in the median, and 16 to 84 % of the motions: " + ", ".join(
+        f"<b>{band(found[key], 'MPa').replace(' (', '</b> ' + face + ' (', 1)}" for face, key in faces.items())
     if (key := f"max_compression_{AWAY}") in found:
-        text += f". Compression {spread(found[key], 'MPa', False)}"
+        text += f"; compression {band(found[key], 'MPa')}"
     strength, entry = strength_of(run)
     values = largest_tensions(run)
     over = sum(value > strength for value in values)
@@ -82,29 +76,6 @@ def stresses(run):
         return f"{text}, away from the base. In no motion is the tension above {source}, {limit}."
     return (f'{text}, away from the base. <b class="exceeded">The concrete would crack</b> in {over} of {len(values)} motions: the tension is above '
             f"{source}, {limit}." if over else f"{text}, away from the base.")
-
-
-# Entry of section Limits -> the columns that it limits
-LIMITED = {"Opening": ("max_opening",), "Slip": ("max_slip",), "Tension": tuple(f"max_tension_{face}_{AWAY}" for face in ("upstream", "downstream")),
-           "Compression": (f"max_compression_{AWAY}",), "Demand-capacity ratio": tuple(f"max_tension_{face}_{AWAY}" for face in ("upstream", "downstream"))}
-
-
-def exceedances(run):
-    """Limits of the scene: [(name, limit in words, motions that exceed it, motions)]."""
-    rows = []
-    for name, columns in LIMITED.items():
-        if not (limit := run.limit(name)) > 0.:
-            continue
-        unit = "" if name.startswith("Demand") else "mm" if name in ("Opening", "Slip") else "MPa"
-        static = run.limit("Static tensile strength") or 2. / 3. * run.limit("Tensile strength")
-        if not unit and not static > 0.:
-            continue
-        found = [column for key in columns if len(column := run.ensemble.values(key))]
-        if not found or len({len(column) for column in found}) > 1:
-            continue
-        largest = [max(map(abs, values)) / (1. if unit else static) for values in zip(*found)]
-        rows.append((name, with_unit(limit, unit), sum(value > limit for value in largest), len(largest)))
-    return rows
 
 
 def limits(run):
@@ -122,7 +93,7 @@ def valid(run):
     failed = run.ensemble.failed
     text = ""
     if failed:
-        text = (f'<b class="exceeded">{len(failed)} of {len(run.ensemble.motions["motion"])} motions have no result:</b> '
+        text = (f'<b class="exceeded">{len(failed)} of {len(run.ensemble.motions["motion"])} analyses have no result:</b> '
                 f"{escape('; '.join(f'{name} ({status})' for name, status in failed[:8]))}. ")
     return text + validity(run, items(run))
 
@@ -139,39 +110,66 @@ def state(run):
     return "exceeded" if any(count for *_, count, _ in rows) or run.ensemble.failed or failed_checks(run)[0] else "satisfied" if rows else ""
 
 
+HEADLINES = ("max_opening", "max_slip", *(f"max_{name}_{AWAY}" for name in ("tension_upstream", "tension_downstream", "compression")))
+
+
+def shown(run, found):
+    """Names of these extremes that a reader looks for first."""
+    return [key for key in HEADLINES if key in found and not (run.tied and key in ("max_opening", "max_slip"))]
+
+
+def ends_of(one, names, unit):
+    """Texts of two fractiles without their signs, the smaller one first."""
+    values = sorted(abs(one[name]) for name in names if is_number(one.get(name)))
+    return [number(value, unit) for value in values] if len(values) == len(names) else ["–"] * len(names)
+
+
 def extremes(run):
-    """Tables of the fractiles, one for each factor."""
-    parts = []
-    factors = run.ensemble.of_factors()
-    for factor, found in factors:
-        keys = sorted(found, key=lambda key: list(EXTREMES).index(key) if key in EXTREMES else len(EXTREMES))
-        rows = []
+    """Table of the fractiles; of several factors also their headlines side by side."""
+    rows = []
+    for key, item in items(run).items():
+        one = run.ensemble.extremes[key]
+        cells = [f'{escape(item.title)} <span class="unit">{f"[{item.unit}]" if item.unit else ""}</span>', number(item.value, item.unit)]
+        cells += [number(one[name], item.unit) if is_number(one.get(name)) else "–" for name in ("p16", "p84", "min", "max")]
+        cells += [percent(one[name]) if is_number(one.get(name)) else "–" for name in ("known_68", "known_95")]
+        cells.append(f"{one['motions_for_10_percent']:.0f}" if is_number(one.get("motions_for_10_percent")) else "–")
+        rows.append(("", cells))
+    text = html_table([("quantity", ""), ("median", "n"), ("16 %", "n"), ("84 %", "n"), ("least", "n"), ("largest", "n"), ("median known within (68 %)", "n"),
+                       ("(95 %)", "n"), ("motions for ±10 %", "n")], rows)
+    return text + by_factor(run) if len(run.ensemble.factors) > 1 else text
+
+
+def by_factor(run):
+    """Median and band of the headlines, a row for each factor of the motions."""
+    keys = shown(run, run.ensemble.extremes)
+    rows = []
+    for factor, found in run.ensemble.of_factors():
+        cells = [f"{factor:g}", f"{len(run.ensemble.values(keys[0], factor)) if keys else 0} of {run.ensemble.rows(factor).sum()}"]
         for key in keys:
-            title, unit = EXTREMES.get(key, (key.removeprefix("max_").replace("_", " ").capitalize(), "MPa" if any(w in key for w in ("stress", "tension")) else ""))
-            one = found[key]
-            cells = [f'{escape(title)} <span class="unit">{f"[{unit}]" if unit else ""}</span>']
-            low_first = [abs(one.get(name, float("nan"))) if is_number(one.get(name)) else float("nan") for name in ("p16", "p84", "min", "max")]
-            cells += [number(abs(one["median"]), unit), *(number(x, unit) if x == x else "–" for pair in (low_first[:2], low_first[2:]) for x in sorted(pair))]
-            cells += [percent(one[name]) if is_number(one.get(name)) else "–" for name in ("known_68", "known_95")]
-            cells.append(f"{one['motions_for_10_percent']:.0f}" if is_number(one.get("motions_for_10_percent")) else "–")
-            rows.append(("", cells))
-        if len(factors) > 1:
-            parts.append(f"<h3>Factor {factor:g}</h3>")
-        parts.append(html_table([("quantity", ""), ("median", "n"), ("16 %", "n"), ("84 %", "n"), ("least", "n"), ("largest", "n"), ("median known within (68 %)", "n"),
-                                 ("(95 %)", "n"), ("motions for ±10 %", "n")], rows))
-    return "".join(parts)
+            one = found.get(key, {})
+            low, high = ends_of(one, ("p16", "p84"), EXTREMES[key][1])
+            median = number(abs(one["median"]), EXTREMES[key][1]) if one else "–"
+            cells.append(f'{median} <span class="unit">({low} to {high})</span>')
+        rows.append(("", cells))
+    heads = [("factor", ""), ("motions", "n"), *(head_of(key) for key in keys)]
+    return f"<h3>By the factor of the motions: median (16 to 84 %). The table above has the factor {run.ensemble.factor:g}.</h3>{html_table(heads, rows)}"
+
+
+def head_of(key):
+    title, unit = EXTREMES[key]
+    return f"{title.partition(',')[0].lower()} [{unit}]", "n"
 
 
 def motions(run):
-    """A row for each motion."""
+    """A row for each motion; many rows are folded."""
     found = run.ensemble.motions
-    keys = [key for key in EXTREMES if key in found and not (run.tied and key in ("max_opening", "max_slip")) and (AWAY in key or key in ("max_opening", "max_slip"))]
-    several = len(run.ensemble.factors) > 1
+    keys, several = shown(run, found), len(run.ensemble.factors) > 1
     rows = []
     for k in range(len(found["motion"])):
-        ok = found["status"][k] == "ok"
+        status = "" if found["status"][k] == "ok" else escape(found["status"][k])
         cells = [escape(found["name"][k]), *([f"{found['factor'][k]:g}"] if several else [])]
         cells += [number(abs(found[key][k]), EXTREMES[key][1]) if found[key][k] == found[key][k] else "–" for key in keys]
-        rows.append(("", [*cells, ("" if ok else escape(found["status"][k]), "" if ok else "exceeded")]))
-    heads = [("motion", ""), *([("factor", "n")] if several else []), *((f"{EXTREMES[key][0].lower()} [{EXTREMES[key][1]}]", "n") for key in keys), ("", "")]
-    return html_table(heads, rows)
+        rows.append(("", [*cells, (status, "exceeded" if status else "")]))
+    heads = [("motion", ""), *([("factor", "n")] if several else [])]
+    text = html_table([*heads, *(head_of(key) for key in keys), ("", "")], rows)
+    return f"<details><summary>{len(rows)} motions</summary>{text}</details>" if len(rows) > 20 else text

@@ -11,7 +11,7 @@ from . import picture
 from .errors import InputError
 from .drawing import (DIRECTIONS, LIMIT, aspect, common_levels, common_top, demand_bar, draw_base, draw_crest, draw_crest_bars, draw_demand,
                       draw_energy, draw_face, draw_joint_history, draw_motion_spectrum, draw_overstress, draw_spectrum, energy_parts, energy_unit, plt,
-                      static_strength, stress_bar, worst_joints)
+                      stress_bar, worst_joints)
 from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
 from .mode_shapes import draw_shape
 from .palette import line
@@ -283,7 +283,7 @@ def directed_face(run, name, column, runs):
 def demand(run, name):
     @panel(1.15 + 0.98 * NARROW * aspect(run), "png")
     def made(figure, axes):
-        demand_bar(figure, draw_demand(axes[0], run, name, static_strength(run)), axes[0], aspect=42, fraction=0.06, pad=0.02)
+        demand_bar(figure, draw_demand(axes[0], run, name, run.static_strength), axes[0], aspect=42, fraction=0.06, pad=0.02)
     return made
 
 

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Places of results in words: joint or monolith, height and face, instead of coordinates."""
 
+import re
 from functools import lru_cache
 
 import numpy as np
@@ -88,9 +89,8 @@ class Places:
                 if any(word in key for word in ("opening", "slip")):
                     found = self.on_joint(at)
                 else:
-                    column = next((f"{way}_stress_{end}" for way in ("arch", "cantilever", "vertical") for end in ("max", "min") if f"{way}_stress_{end}" in key),
-                                  "min_principal" if "compression" in key else "max_principal")
-                    found = self.in_dam(at, column, value)
+                    directed = re.match("(arch|cantilever|vertical)_stress_(max|min)", key)
+                    found = self.in_dam(at, directed[0] if directed else "min_principal" if "compression" in key else "max_principal", value)
                 if found:
                     return found
         except (KeyError, OverflowError, TypeError, ValueError):

@@ -40,10 +40,11 @@ def volume_words(volume):
 def dam(run):
     height, crest, volume = lengths(run)
     mesh = run.summary.get("mesh", {})
-    parts = [f"{height:.0f} m high" if height > 0. else "", f"crest {crest:.0f} m long" if crest else "", f"{volume_words(volume)} of concrete" if volume else ""]
-    text = ", ".join(filter(None, parts))
+    parts = [f"{height:.0f} m high" if height > 0. else "", f"crest {crest:.0f} m long" if crest else "",
+             f"{volume_words(volume)} of concrete" if volume else ""]
     concrete = re.sub(r"\s*Poisson.*?,", "", typeset(run.facts.get("Concrete", "").partition(";")[0]))
-    return "; ".join(filter(None, (text, concrete and f"concrete {concrete}", f"mesh of {mesh['cells']:,} elements" if isinstance(mesh.get("cells"), int) else "")))
+    elements = f"mesh of {mesh['cells']:,} elements" if isinstance(mesh.get("cells"), int) else ""
+    return "; ".join(filter(None, (", ".join(filter(None, parts)), concrete and f"concrete {concrete}", elements)))
 
 
 def joints(run):
@@ -51,9 +52,9 @@ def joints(run):
     mesh = run.summary.get("mesh", {})
     n = mesh.get("joints", 0)
     if isinstance(names := mesh.get("joint_names"), list):
-        kinds = [("contraction joint", sum(str(name).startswith("joint") for name in names)), ("lift joint", sum(str(name).startswith("lift") for name in names)),
-                 ("base joint", sum(str(name).startswith("base") for name in names))]
-        counts = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in kinds if count)
+        kinds = {"contraction joint": "joint", "lift joint": "lift", "base joint": "base"}
+        numbers = {kind: sum(str(name).startswith(word) for name in names) for kind, word in kinds.items()}
+        counts = ", ".join(f"{count} {kind}{'s' if count > 1 else ''}" for kind, count in numbers.items() if count)
     else:
         counts = f"{n} joints"
     if not counts or not n:
@@ -143,7 +144,8 @@ def left_out(run):
     parts = ["cracking of the concrete"]
     if run.tied:
         parts.append("opening of the joints")
-    parts += {"rigid": ["deformation of the rock and radiation of waves into it"], "massless": ["inertia of the rock and radiation of waves into it"]}.get(ground, [])
+    parts += {"rigid": ["deformation of the rock and radiation of waves into it"],
+              "massless": ["inertia of the rock and radiation of waves into it"]}.get(ground, [])
     if "water" in run.summary.get("loads", {}) and run.moves:
         parts += {"none": ["hydrodynamic pressure"], "acoustic": []}.get(model, ["compressibility of the water"])
     if run.moves and ground in ("rigid", "massless") and not entry(run, "Motion/Abutments"):

@@ -19,8 +19,8 @@ EXTREMES = {
     "max_tension_upstream": ("Tension upstream, with the base", "MPa"),
     "max_tension_downstream": ("Tension downstream, with the base", "MPa"),
     "max_compression": ("Compression, with the base", "MPa"),
-    **{f"{name}_stress_{end}_{face}_{AWAY}": (f"{name.capitalize()} stress {face}, {word}, away from the base", "MPa") for name in ("arch", "cantilever", "vertical")
-       for end, word in (("max", "largest"), ("min", "smallest")) for face in ("upstream", "downstream")}}
+    **{f"{name}_stress_{end}_{face}_{AWAY}": (f"{name.capitalize()} stress {face}, {word}, away from the base", "MPa")
+       for name in ("arch", "cantilever", "vertical") for end, word in (("max", "largest"), ("min", "smallest")) for face in ("upstream", "downstream")}}
 SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6, "kN": 1e-3}
 
 
@@ -159,11 +159,11 @@ def items(run):
                 found[f"{key}_{name}"] = Item(f"{name.capitalize()} {of}", "mm", run.summary[key][f"max_{name}"],
                                               limits.get(f"{key}_{name}"))
     found.update(demands(run, limits))
-    if safeties := [block["min_sliding_safety"] | {"words": name} for name, block in blocks_of(run).items()
+    if safeties := [block["min_sliding_safety"] | {"place": block["centroid"], "words": name} for name, block in blocks_of(run).items()
                     if is_number(block.get("min_sliding_safety", {}).get("value"))]:
         found["sliding_safety"] = Item("Least safety of a monolith against sliding on its base", "",
                                        min(safeties, key=lambda safety: safety["value"]), limits.get("sliding_safety"))
-    if safeties := [wedge["min_safety"] | {"words": name} for name, wedge in wedges_of(run).items()
+    if safeties := [wedge["min_safety"] | {"place": wedge["base_centroid"], "words": name} for name, wedge in wedges_of(run).items()
                     if is_number(wedge["min_safety"]["value"])]:
         found["wedge_safety"] = Item("Least sliding safety of a rock wedge", "", min(safeties, key=lambda one: one["value"]), limits.get("wedge_safety"))
     if "max_shear_stress" in (keys := run.summary.get("keys", {})):
@@ -305,6 +305,29 @@ def verdict(run):
     sentences = [f"{len(found)} of {len(limits)} limits {'is' if len(found) == 1 else 'are'} {words[state]}: {'; '.join(found)}."
                  for state, found in texts.items() if found]
     return "exceeded" if texts["exceeded"] else "undecided", " ".join(sentences) + rest
+
+
+# Entry of section Limits -> the columns that it limits
+LIMITED = {"Opening": ("max_opening",), "Slip": ("max_slip",), "Tension": tuple(f"max_tension_{face}_{AWAY}" for face in ("upstream", "downstream")),
+           "Compression": (f"max_compression_{AWAY}",), "Demand-capacity ratio": tuple(f"max_tension_{face}_{AWAY}" for face in ("upstream", "downstream"))}
+
+
+def exceedances(run):
+    """Limits of the scene of many motions: [(name, limit in words, motions that exceed it, motions)]."""
+    rows = []
+    for name, columns in LIMITED.items():
+        if not (limit := run.limit(name)) > 0.:
+            continue
+        unit = "" if name.startswith("Demand") else "mm" if name in ("Opening", "Slip") else "MPa"
+        static = run.static_strength
+        if not unit and not static > 0.:
+            continue
+        found = [column for key in columns if len(column := run.ensemble.values(key))]
+        if not found or len({len(column) for column in found}) > 1:
+            continue
+        largest = [max(map(abs, values)) / (1. if unit else static) for values in zip(*found)]
+        rows.append((name, with_unit(limit, unit), sum(value > limit for value in largest), len(largest)))
+    return rows
 
 
 def extremes(runs):

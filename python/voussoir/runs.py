@@ -211,6 +211,11 @@ class Run:
         """Entry "Limits/NAME" of the scene in its unit, 0 if there is none."""
         return self.value(f"Limits/{name}")
 
+    @property
+    def static_strength(self):
+        """Static tensile strength of the scene [Pa] as the program takes it, 0 if there is none."""
+        return self.limit("Static tensile strength") or 2. / 3. * self.limit("Tensile strength")
+
     @cached_property
     def facts(self):
         """Lines of the log before the first step: {title: text}."""
