@@ -19,6 +19,7 @@ from pathlib import Path
 from unittest import mock
 
 from browser import Browser, find_browser
+from many_motions import fractile, many_motions, rows_of
 from program_physics import Solution, close, read_vtu
 from run_program import (arch_mesh, expect, from_file, refused, report, reports, run_cases, runs, settings, summary, voussoir, write_mesh,
                          write_scene)
@@ -127,6 +128,114 @@ def beside_static():
     expect("None: the static state alone." in Reader("rest.html").text, "a static state alone")
 
 
+def analysed():
+    """The first page says what was analysed, with the numbers of the files; several runs are one table; places are words."""
+    write_scene("scene.prm", LIMITS)
+    runs("scene.prm", "--output", "run")
+    runs("scene.prm", "--output", "tied", *settings("Joints/Model=tied"))
+    reports("run")
+    text = Path("run/report.html").read_text(encoding="utf-8")
+    first = text[text.index("What was analysed"):text.index(">Results<")]
+    mesh, history = summary("run")["mesh"], table("run/history.csv")
+    peak = max(abs(float(row["base_acceleration_x"])) for row in history) / 9.80665
+    water = float(next(line for line in Path("run/scene.prm").read_text().splitlines() if "set Water level" in line).split("=")[1].split("#")[0])
+    for words in ("210 m high", f"crest {mesh['crest_length']:.0f} m long", f"{mesh['volume'] / 1e6:.3g} million m³", f"{mesh['cells']} elements",
+                  "2 contraction joints, law FJA", "friction 0.6", f"level {water:g} m", "motion.txt", f"{peak:.3g} g along the river", "rigid: the base",
+                  "The model leaves out cracking", "motions of one spectrum differ (openings by about ±25 %, tensions by about ±10 %)", "set Ensemble"):
+        expect(words in first, f"'{words}' is not on the first page: {first}")
+    expect("1-16" not in first and text.count("<img") > first.count("<img") == 2, "pictures of the first page")
+    reports("run", "tied", "--output", "pair.html")
+    text = Path("pair.html").read_text(encoding="utf-8")
+    first = text[text.index("<h2>Answers"):text.index("<h2>Results")]
+    expect(first.count("<table>") == 1 and first.count("<tr>") == 3 and 'class="answers"' not in first, f"{first}")
+    expect(f"{1e3 * summary('run')['extremes']['max_opening']['value']:.3g}"[:4] in first and first.count("leaves out") == 2, f"{first}")
+    from voussoir.report_places import Places
+    from voussoir.runs import Run
+    places = Places(Run("run"))
+    for row in table("run/joint_points.csv"):
+        place = place_of(row)
+        level = "crest" if place[2] > 209.9 else "lowest point" if place[2] < .1 else f"elevation {place[2]:.0f} m"
+        expect(places.words("max_opening", place, 0.).startswith(f"joint {row['joint']}, {level}"), f"{row}: {places.words('max_opening', place, 0.)}")
+        expect(float(row["depth"]) > 0. or places.words("max_slip", place, 0.).endswith("upstream"), f"{row}: {places.words('max_slip', place, 0.)}")
+    for row in table("run/faces.csv"):  # at joints two nodes have one place: the value decides
+        words = places.words("max_tension_upstream", place_of(row), float(row["max_principal"]))
+        expect(words.startswith(f"monolith {row['monolith']}, ") and words.endswith(row["face"]), f"{row}: {words}")
+    expect(places.words("max_opening", [900., 0., -5.], 0.) == "at (900, 0, −5) m", places.words("max_opening", [900., 0., -5.], 0.))
+
+
+def motions():
+    """Many motions: the answers are median and band of ensemble.csv; limits and cracks are counted; analyses without result are named."""
+    write_scene("scene.prm", LIMITS)
+    runs("scene.prm", "--output", "run", *settings("Joints/Friction=0.3", "Limits/Opening=22 mm", "Limits/Tensile strength=8 MPa"))
+    many_motions("run", "many")
+    of = lambda name, directory="many": [float(row[name]) for row in rows_of(f"{directory}/ensemble.csv") if row["status"] == "ok" and float(row["factor"]) == 1.]
+    from voussoir.report_ensemble import asked
+    from voussoir.report_tables import number
+    from voussoir.runs import Run
+    said = {question: text for question, text in asked(Run("many"))}
+    openings = of("max_opening")
+    low, median, high = (number(fractile(openings, share), "mm") for share in (.16, .5, .84))
+    expect(f"<b>{median} mm</b> in the median, {low} to {high} mm from 16 to 84 %" in said["How far do the joints open?"], f"{said}")
+    expect("16 motions: the median is known within 7.5 % (68 %), 15 % (95 %)." in said["How far do the joints open?"], f"{said}")
+    tensions = [max(pair) for pair in zip(of("max_tension_upstream_away_from_base"), of("max_tension_downstream_away_from_base"))]
+    over = sum(value > 8e6 for value in tensions)
+    crack = f"<b class=\"exceeded\">The concrete would crack</b> in {over} of 16 motions" if over else "In no motion is the tension above"
+    expect(crack in said["How large are the stresses?"], f"{over}: {said}")
+    expect(f"Opening (22 mm) in {sum(x > .022 for x in openings)} of 16 motions" in said["Which limits are exceeded?"] and min(openings) < .022 < max(openings),
+           f"{said}, {openings}")
+    reports("many")
+    page = Reader("many/report.html")
+    for words in ("16 artificial motions" if "16 artificial" in page.text else "16 motions", "seed 16", "the median over the motions", "Unknown: openings over time"):
+        expect(words in page.text, f"'{words}' is not on the page of many motions")
+    expect("Not shown" not in page.text and "motions of one spectrum differ" not in page.text and len(page.images) >= 10, page.text[-1500:])
+    shutil.copytree("run", "many/motion-3")
+    expect("Motion 3: " in dict(asked(Run("many")))["Do they close again?"], "a motion with full tables")
+    many_motions("run", "factors", n=12, factors=(.5, 1., 2.), failed=(3, 7))
+    reports("factors", "run", "--output", "two.html")
+    text = Reader("two.html").text
+    expect("Incremental dynamic analysis" in text and text.count("unstable at 3.2 s") == 2 and f"({low_to_high(of('max_opening', 'factors'))})" in text, text[:3000])
+    said = dict(asked(Run("factors")))["Are the results valid?"]
+    expect("2 of 36 analyses have no result:</b> seed 3, factor 2 (unstable at 3.2 s); seed 7, factor 2" in said, said)
+    drawn_motions()
+    whole = Path("many/ensemble.csv").read_text()
+    for damaged in ("", "motion,name\n1,a\n", whole.replace("seed 2,1.0,ok,", "seed 2,1.0,ok,x", 1)):
+        Path("many/ensemble.csv").write_text(damaged)
+        refused(["many"], "many/ensemble.csv", "Repeat the run", run=report)
+
+
+def low_to_high(values):
+    from voussoir.report_tables import number
+    return f"{number(fractile(values, .16), 'mm')} to {number(fractile(values, .84), 'mm')}"
+
+
+def drawn_motions():
+    """Lines of the figures against ensemble.csv: each motion, median, and a fractile that ends where motions have no result."""
+    from voussoir import figures
+    from voussoir.ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
+    from voussoir.drawing import plt
+    from voussoir.runs import Run
+    rows, factors = rows_of("factors/ensemble.csv"), (.5, 1., 2.)
+    run, (_, axes) = Run("factors"), plt.subplots(1, 3)
+    draw_joint_band(axes[0], run, "opening")
+    lines = [list(line.get_ydata()) for line in axes[0].lines]
+    for row in rows:
+        if float(row["factor"]) == 1.:
+            expect(any(len(y) == 2 and all(abs(a - 1e3 * float(row[f"opening_{j}"])) < 1e-9 for j, a in enumerate(y, 1)) for y in lines), f"{row['name']} is not drawn")
+    draw_distribution(axes[1], run)
+    close(max(axes[1].lines[1].get_xdata()), 1e3 * max(float(row["max_opening"]) for row in rows if row["factor"] == "1.0"), 1e-9, "largest opening")
+    draw_dynamic_analysis(axes[2], run)
+    median, low, high = (line for line in axes[2].lines if len(line.get_ydata()) == 4 and line.get_color() != "0.62")
+    for factor, x in zip(factors[:2], list(median.get_xdata())[1:]):
+        close(x, 1e3 * fractile([float(row["max_opening"]) for row in rows if float(row["factor"]) == factor], .5), 1e-9, f"median at factor {factor}")
+    expect(math.isnan(list(high.get_xdata())[-1]) and not math.isnan(list(low.get_xdata())[-1]), "84 % with 2 of 12 without result")
+    plt.close("all")
+    with mock.patch.object(sys, "argv", ["figures", "factors", "many"]), mock.patch.object(figures, "envelopes", lambda *_: None):
+        expect(figures.main() == 0, "figures")
+    for name in ("openings", "slips", "distribution", "spectrum"):
+        expect(Path("many/figures", f"{name}.png").exists() and Path("many/figures", f"{name}.pdf").read_bytes()[:4] == b"%PDF", name)
+    expect(Path("factors/figures/ida.pdf").exists() and not Path("many/figures/ida.pdf").exists(), "incremental dynamic analysis")
+
+
 def browser():
     """Chromium shows the page: no error, every figure, no sideways scrolling on a telephone, a PDF."""
     if find_browser() is None:
@@ -152,6 +261,8 @@ def browser():
                                         "e.className === 'table' && e.scrollWidth > e.clientWidth).map(e => e.outerHTML.slice(0, 100))")
                 expect(not beyond, f"{path} at {width}: beyond the screen: {beyond}")
                 expect(not chromium.complaints(), f"{path} at {width}: {chromium.complaints()}")
+                page_one = chromium.value("document.querySelector('.first').getBoundingClientRect().height")
+                expect(width != 680 or path == "both.html" or page_one < 263 * 96 / 25.4, f"{path}: the first page has {page_one} px, A4 within its margins 994")
                 small = chromium.value("Math.min(...[...document.querySelectorAll('p,td,th,figcaption,li,pre,code')]"
                                        ".map(e => parseFloat(getComputedStyle(e).fontSize)))")
                 expect(small >= (28 / 3 if width == 680 else 11),  # 7 pt on paper
@@ -785,4 +896,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, beside_static, browser, colours, units, answers, content, refusals, received, numbers, unjudged, undecided, earlier, keys, ended, spectrum)
+    run_cases(page, beside_static, analysed, motions, browser, colours, units, answers, content, refusals, received, numbers, unjudged, undecided, earlier, keys, ended, spectrum)

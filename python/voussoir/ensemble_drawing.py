@@ -63,7 +63,7 @@ def draw_distribution(axes, run, measure="max_opening"):
     if 0. < bound < 2. * values[-1]:
         axes.axvline(bound, **LIMIT, label=f"limit {bound:g} {unit}")
     axes.set(xlabel=f"{title} [{unit}]", ylabel="share of the motions [-]", ylim=(0., 1.02), yticks=np.arange(0., 1.01, .2))
-    axes.legend(loc="lower right", borderaxespad=.2)
+    axes.legend(loc="lower right", borderaxespad=.2, frameon=True, framealpha=.85, edgecolor="none")
 
 
 def draw_dynamic_analysis(axes, run, measure="max_opening"):
@@ -92,4 +92,4 @@ def draw_dynamic_analysis(axes, run, measure="max_opening"):
         if bound < 2. * np.nanmax(column):
             axes.axvline(bound, **LIMIT, label=f"limit {bound:g} {unit}")
     axes.set(xlabel=f"{title} [{unit}]", ylabel="factor of the motion [-]", xlim=(0., None), ylim=(0., 1.05 * factors[-1]))
-    axes.legend(loc="lower right", borderaxespad=.2)
+    axes.legend(loc="lower right", borderaxespad=.2, frameon=True, framealpha=.85, edgecolor="none")
