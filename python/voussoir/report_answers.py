@@ -129,7 +129,7 @@ def failed_checks(run):
                 good.append(name)
             else:
                 bad.append(f"{name} {number(value, '')} (limit {number(limit, '')})")
-    warnings = [escape(str(warning["text"]).partition(". ")[0].rstrip(".")) for warning in run.warnings if warning["class"] != "input"]
+    warnings = [escape(re.split(r"\. |: ", str(warning["text"]))[0].rstrip(".")) for warning in run.warnings if warning["class"] != "input"]
     if warnings:
         bad.append(f"warnings of the program: {len(warnings)} ({'; '.join(warnings)})")
     return bad, good

@@ -82,8 +82,9 @@ def limits(run):
     rows = exceedances(run)
     if not rows:
         return "The scene gives no limits (section Limits) for results of many motions, so nothing is evaluated here."
-    over = [f"{name} ({limit}) in {count} of {n} motions" for name, limit, count, n in rows if count]
-    kept = [f"{name} ({limit})" for name, limit, count, _ in rows if not count]
+    named = lambda name, limit: f"{name} ({limit})" if limit else name
+    over = [f"{named(name, limit)} in {count} of {n} motions" for name, limit, count, n in rows if count]
+    kept = [named(name, limit) for name, limit, count, _ in rows if not count]
     text = f"Exceeded: {'; '.join(over)}." if over else ""
     return escape(" ".join(filter(None, (text, f"Satisfied in all motions: {'; '.join(kept)}." if kept else ""))))
 

@@ -11,7 +11,7 @@ from .runs import Skip
 from .units import readable, typeset
 
 LAWS = {"tied": "closed, without opening and slip", "FJA": "they open, and slip with friction", "FJB": "they open, without slip",
-        "KSM": "they open, and slip with friction between shear keys", "cohesive": "bonded until they crack, then they open, and slip with friction"}
+        "KSM": "with shear keys, they open, and slip with friction", "cohesive": "bonded until they crack, then they open, and slip with friction"}
 WATER = {"none": "static pressure only", "Westergaard": "hydrodynamic added mass by Westergaard", "Westergaard-nodal": "hydrodynamic added mass by Westergaard",
          "added mass table": "hydrodynamic added mass by a table", "incompressible": "incompressible water", "acoustic": "compressible water"}
 GROUND = {"rigid": "rigid: the base of the dam has the ground motion", "massless": "elastic rock without mass, the ground motion at its outer boundary",
@@ -102,7 +102,8 @@ def source(run):
     if kind == "file":
         files = [entry(run, f"Motion/{name}") for name in ("Sequence", "File", "File x", "File y", "File z", "Abutments")]
         matched = ", matched to the spectrum " + entry(run, "Motion/Target spectrum") if entry(run, "Motion/Match") == "true" else ""
-        return f"recorded: {', '.join(filter(None, files)) or 'no file'}{matched}"
+        names = [re.sub(r"[^\s,;:]*/", "", text) for text in files if text]
+        return f"recorded: {', '.join(names) or 'no file'}{matched}"
     return kind
 
 
@@ -126,7 +127,8 @@ def motion(run):
     factor = entry(run, "Motion/Factor", "1")
     ensemble_factors = run.ensemble.factors if run.ensemble else []
     steps, dt = run.summary.get("steps"), run.summary.get("time_step")
-    length = f"{steps * dt:.4g} s" if isinstance(steps, int) and isinstance(dt, (int, float)) and steps * dt > 0. else ""
+    seconds = steps * dt if isinstance(steps, int) and isinstance(dt, (int, float)) else run.value("Motion/Duration")
+    length = f"{seconds:.4g} s" if seconds > 0. else ""
     scaled = f"factors {', '.join(f'{x:g}' for x in ensemble_factors)}" if len(ensemble_factors) > 1 else f"factor {factor}" if factor not in ("1", "") else ""
     first = "the first: " if run.ensemble and peaks(run) else ""
     return "; ".join(filter(None, (source(run), first + peaks(run), length, scaled)))
@@ -144,12 +146,12 @@ def left_out(run):
     parts = ["cracking of the concrete"]
     if run.tied:
         parts.append("opening of the joints")
-    parts += {"rigid": ["deformation of the rock and radiation of waves into it"],
-              "massless": ["inertia of the rock and radiation of waves into it"]}.get(ground, [])
+    waves = ["radiation of waves into the rock"] if run.moves and ground in ("rigid", "massless") else []
+    parts += (["deformation of the rock"] if ground == "rigid" else []) + waves
     if "water" in run.summary.get("loads", {}) and run.moves:
         parts += {"none": ["hydrodynamic pressure"], "acoustic": []}.get(model, ["compressibility of the water"])
-    if run.moves and ground in ("rigid", "massless") and not entry(run, "Motion/Abutments"):
-        parts.append("differences of the ground motion along the base")
     if "temperature" not in run.summary.get("loads", {}):
         parts.append("temperature")
+    if run.moves and ground in ("rigid", "massless") and not entry(run, "Motion/Abutments"):
+        parts.append("differences of the ground motion along the base")
     return f"The model leaves out {', '.join(parts[:-1])} and {parts[-1]}." if len(parts) > 1 else f"The model leaves out {parts[0]}."

@@ -20,7 +20,8 @@ EXTREMES = {
     "max_tension_downstream": ("Tension downstream, with the base", "MPa"),
     "max_compression": ("Compression, with the base", "MPa"),
     **{f"{name}_stress_{end}_{face}_{AWAY}": (f"{name.capitalize()} stress {face}, {word}, away from the base", "MPa")
-       for name in ("arch", "cantilever", "vertical") for end, word in (("max", "largest"), ("min", "smallest")) for face in ("upstream", "downstream")}}
+       for name in ("arch", "cantilever", "vertical") for end, word in (("max", "largest"), ("min", "smallest")) for face in ("upstream", "downstream")},
+    "overstress_seconds": ("Duration of overstress at a point, away from the base", "s")}
 SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6, "kN": 1e-3}
 
 
@@ -314,6 +315,12 @@ LIMITED = {"Opening": ("max_opening",), "Slip": ("max_slip",), "Tension": tuple(
 
 def exceedances(run):
     """Limits of the scene of many motions: [(name, limit in words, motions that exceed it, motions)]."""
+    counted = run.ensemble.found.get("motions_above_limit")
+    if isinstance(counted, dict) and counted:  # by the program, also of limits that ensemble.csv does not show
+        entries = {"opening": "Opening", "slip": "Slip", "tension_upstream": "Tension", "tension_downstream": "Tension", "compression": "Compression",
+                   "demand_capacity": "Demand-capacity ratio"}
+        bound = lambda name: with_unit(run.limit(entries[name]), unit_of(name)) if name in entries else ""
+        return [(WORDS.get(name, name.replace("_", " ")), bound(name), int(count), run.ensemble.n) for name, count in counted.items()]
     rows = []
     for name, columns in LIMITED.items():
         if not (limit := run.limit(name)) > 0.:

@@ -221,7 +221,7 @@ class Run:
         """Lines of the log before the first step: {title: text}."""
         facts, title = {}, None
         for line in self.log_text.splitlines():
-            if line.startswith(("   time", "Limits ", "Joints    largest", "Tension ")):  # results of a static state follow it at once
+            if line.startswith(("   time", "Ensemble ", "Limits ", "Joints    largest", "Tension ")):  # results of a static state follow it at once
                 break
             if match := re.match(r"([A-Z]\w+) {1,9}(?=\S)(.*)", line):
                 title = match[1]
