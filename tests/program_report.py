@@ -160,6 +160,10 @@ def analysed():
     for row in table("run/faces.csv"):  # at joints two nodes have one place: the value decides
         words = places.words("max_tension_upstream", place_of(row), float(row["max_principal"]))
         expect(words.startswith(f"monolith {row['monolith']}, ") and words.endswith(row["face"]), f"{row}: {words}")
+    from voussoir.drawing import away_from_base
+    for face, away in away_from_base(Run("run")).items():
+        largest = max(float(row["max_principal"]) for row, counts in zip([row for row in table("run/faces.csv") if row["face"] == face], away) if counts)
+        close(largest, summary("run")["extremes"][f"max_tension_{face}_away_from_base"]["value"], 1e-6, f"largest tension in the figure, {face}")
     expect(places.words("max_opening", [900., 0., -5.], 0.) == "at (900, 0, −5) m", places.words("max_opening", [900., 0., -5.], 0.))
 
 
