@@ -12,7 +12,8 @@ from .tables import read_table
 
 NAMES = ("name", "status")  # columns of text
 ENDS = ("median", "p16", "p84")
-# How much the largest values of motions that match one spectrum differ, from 16 to 84 % about the median (doc/performance.md has the measurements).
+# How much the largest values of motions that match one spectrum differ [%], from 16 to 84 % about the median: of up to 64 artificial motions, for
+# dams with 5 and with 28 joints.
 SCATTER = {"openings": 25, "tensions": 10}
 
 

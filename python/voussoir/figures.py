@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes DIR/figures/*.png from the output directory of a run of voussoir, or of several: their scales are then the same. Except for the
-envelopes, each figure is also made as PDF.
+"""Makes DIR/figures/*.png from the output directory of a run of voussoir, or of several: their scales are then the same. Openings,
+slips, spectra, distributions and demands are also made as PDF.
 
     scripts/figures.py DIR... [--format png|svg|pdf] [--limits]
 
@@ -18,7 +18,8 @@ Of many motions (Motion/Ensemble): envelopes of the median, openings and slips o
 distribution                                   share of the motions up to a largest opening and a largest tension
 ida                                            of several factors: factor over the largest opening and tension (incremental dynamic analysis)
 
-Marked in an envelope is the largest value away from the base. Of the output directory of `voussoir modes`: modes.png. Figures whose data are missing are skipped with a message.
+Marked in an envelope is the largest value away from the base. Of the output directory of `voussoir modes`: modes.png. Figures
+whose data are missing are skipped with a message.
 Exit status: 0 done, 1 some data could not be understood, 2 not an output directory, 3 no numpy or matplotlib.
 """
 
@@ -39,6 +40,7 @@ from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joi
 from .runs import Run, Skip
 
 N_WORST_JOINTS = 4
+AS_PDF = ("openings", "slips", "spectrum", "distribution", "ida", "demand", "overstress")  # figures for the reports of others: 0.1 s each
 
 
 def strength_of(run):
@@ -217,7 +219,7 @@ def main():
         if folder.is_symlink():
             raise ValueError(f"{folder} is a link")
         folder.mkdir(exist_ok=True)
-        for kind in [options.format] if options.format else ["png"] if name.startswith("envelope") else ["png", "pdf"]:
+        for kind in [options.format] if options.format else ["png", "pdf"] if name.startswith(AS_PDF) else ["png"]:
             data = BytesIO()
             figure.savefig(data, format=kind, metadata={"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind))
             write_whole(folder / f"{name}.{kind}", data.getvalue())

@@ -401,7 +401,8 @@ def checks(page, runs):
                 cells.append("")
         if any(cells):
             body.append(("", [title, *map(escape, cells)]))
-    page.add(html_table([("check", ""), *((escape(run.name), "n") for run in runs)], body))
+    if body:
+        page.add(html_table([("check", ""), *((escape(run.name), "n") for run in runs)], body))
     for run in runs:
         if sentence := page.made(f"error of mesh and time step of {run.name}", lambda run=run: accuracy_sentence(run)):
             page.add(f"<p>{f'<b>{escape(run.name)}.</b> ' if len(runs) > 1 else ''}{sentence}</p>")

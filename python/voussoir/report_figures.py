@@ -11,7 +11,7 @@ from . import picture
 from .errors import InputError
 from .drawing import (DIRECTIONS, LIMIT, aspect, common_levels, common_top, demand_bar, draw_base, draw_crest, draw_crest_bars, draw_demand,
                       draw_energy, draw_face, draw_joint_history, draw_motion_spectrum, draw_overstress, draw_spectrum, energy_parts, energy_unit, plt,
-                      stress_bar, worst_joints)
+                      show_periods, stress_bar, worst_joints)
 from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
 from .mode_shapes import draw_shape
 from .palette import line
@@ -173,7 +173,8 @@ def point_accelerations(run):
         for axes, direction in zip(rows, directions):
             for number, point in enumerate(points):
                 if (column := run.history.get(f"{point}_acceleration_{direction}")) is not None:
-                    axes.plot(run.history["time"], column, **line(number), linewidth=0.8, label=f"{point}: {np.abs(column).max():.2f} m/s²")
+                    axes.plot(run.history["time"], column, **line(number), linewidth=0.8,
+                              label=f"{point.replace('_', ' ')}: {np.abs(column).max():.2f} m/s²")
             axes.set_ylabel(f"{DIRECTIONS[direction]}\n[m/s²]")
             axes.margins(x=0)
             axes.legend(loc="upper right", ncol=2)
@@ -193,6 +194,8 @@ def floor_spectra(run):
         for number, name in enumerate(columns):
             rows[0].loglog(table[over], table[name], **line(number), label=name.replace("_", " "))
         rows[0].set(xlabel=f"{over} [{'s' if over == 'period' else 'Hz'}]", ylabel="pseudo-acceleration [m/s²]")
+        if over == "period":
+            show_periods(rows[0], table[over])
         rows[0].legend(loc="lower left", ncol=2)
     return both_widths(draw, 3., 1)
 
