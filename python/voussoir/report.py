@@ -34,7 +34,7 @@ from .runs import NotComputed, Run, Skip, name_apart, refuse_links
 STUDY = ("title", "owner", "author", "date")  # options with the texts of the title page
 
 
-MARKED = "Marked: the largest value away from the base."
+MARKED = "Marked: the extreme value away from the base."
 
 
 class Page:
@@ -185,11 +185,11 @@ def results(page, runs):
     for run in runs:
         if run.ensemble:
             page.add(f"<h3>Motions{' of ' + escape(run.name) if len(runs) > 1 else ''}</h3>{ensemble.motions(run)}")
-    open_dam(page, runs)
     error_bars(page, runs)
     if any("value_with_base" in limit for run in runs for limit in run.summary.get("limits", {}).values()):
         page.add('<p class="sub">Limits of stresses are compared with the values away from the base: farther from it than a tenth of the '
                  'dam’s height. Closer to the base the stress of an elastic dam grows with refinement of the mesh.</p>')
+    open_dam(page, runs)
 
 
 def error_bars(page, runs):
@@ -337,11 +337,10 @@ def stresses(page, runs):
              + MARKED,
              [(named(runs, run, f"{name} face"), f"demand-capacity ratio, {name} face of {run.name}", lambda run=run, name=name: figures.demand(run, name))
               for run in strong for name in ("upstream", "downstream")])
-    runs = single(runs)
-    if strength:
-        page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the static tensile strength "
-                 "(USACE EM 1110-2-6053).",
-                 [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run)) for run in runs if run.moves])
+    page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the static tensile strength "
+             "(USACE EM 1110-2-6053).",
+             [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run))
+              for run in single(strong) if run.moves])
 
 
 def bases(page, runs):
