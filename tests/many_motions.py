@@ -17,6 +17,8 @@ GONE = ("history.csv", "joints.csv", "joint_history.csv", "energy.csv", "blocks.
 def fractile(values, share):
     """Linear between the sorted values."""
     values, at = sorted(values), share * (len(values) - 1)
+    if len(values) == 1:
+        return values[0]
     k = min(int(at), len(values) - 2)
     return values[k] + (at - k) * (values[k + 1] - values[k])
 

@@ -199,6 +199,11 @@ def motions():
     expect("Not shown" not in page.text and "motions of one spectrum differ" not in page.text and len(page.images) >= 10, page.text[-1500:])
     shutil.copytree("run", "many/motion-3")
     expect("Motion 3: " in dict(asked(Run("many")))["Do they close again?"], "a motion with full tables")
+    many_motions("run", "alone", n=1)
+    said = dict(asked(Run("alone")))["How far do the joints open?"]
+    expect(said.startswith(f"By <b>{number(of('max_opening', 'alone')[0], 'mm')} mm</b>; joint") and "One motion" in said and " to " not in said, said)
+    reports("alone")
+    expect("Not shown" not in Reader("alone/report.html").text, "one motion of an ensemble")
     many_motions("run", "factors", n=12, factors=(.5, 1., 2.), failed=(3, 7))
     reports("factors", "run", "--output", "two.html")
     text = Reader("two.html").text

@@ -117,6 +117,8 @@ class Ensemble:
         """Sentence on how well the median of the largest opening (or of the first extreme) is known."""
         name = "max_opening" if "max_opening" in self.extremes else next(iter(self.extremes), None)
         found = self.extremes.get(name, {})
+        if self.n < 2:
+            return "One motion: the scatter is unknown."
         if not is_number(found.get("known_68")):
             return f"{self.n} motions."
         text = f"{self.n} motions: the median is known within {percent(found['known_68'])} (68 %)"

@@ -104,7 +104,7 @@ def motions(runs, save):
         measures = ["tension"] if run.tied else ["max_opening", "tension"]
         for name, draw, title in (("distribution", draw_distribution, "Share of the motions up to a value"),
                                   ("ida", draw_dynamic_analysis, "Incremental dynamic analysis")):
-            if name == "ida" and len(run.ensemble.factors) < 2:
+            if run.ensemble.n < 2 or name == "ida" and len(run.ensemble.factors) < 2:
                 continue
             figure, row = plt.subplots(1, len(measures), figsize=(5. * len(measures), 4), sharey=True, squeeze=False)
             for axes, measure in zip(row[0], measures):

@@ -309,7 +309,7 @@ def scatter(page, runs, several):
         measures = (["max_opening"] if not run.tied else []) + ["tension"]
         page.row(f"Share of the motions{of} up to a value.",
                  [("", f"distribution of {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.distribution(run, m))
-                  for measure in measures])
+                  for measure in measures if run.ensemble.n > 1])
         if len(run.ensemble.factors) > 1:
             page.row(f"Incremental dynamic analysis{of}: factor of the motions, and largest value.",
                      [("", f"dynamic analysis, {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.dynamic_analysis(run, m))

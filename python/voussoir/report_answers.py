@@ -119,6 +119,15 @@ def cracks(run, found):
     return max((item.value for item in tensions(found).values()), default=0.) > strength_of(run)[0]
 
 
+def beginning(text, most=100):
+    """First sentence of a warning; of a long one the part before its colon, or the first words."""
+    first = text.partition(". ")[0].rstrip(".")
+    if len(first) <= most:
+        return first
+    head = first[:most]
+    return head[:colon] if (colon := head.rfind(": ")) > 20 else head.rpartition(" ")[0] + " …"
+
+
 def failed_checks(run):
     """Numerical checks and warnings about the physics: those that are not satisfied, and those that are."""
     bad, good, summary = [], [], run.summary
@@ -129,7 +138,7 @@ def failed_checks(run):
                 good.append(name)
             else:
                 bad.append(f"{name} {number(value, '')} (limit {number(limit, '')})")
-    warnings = [escape(re.split(r"\. |: ", str(warning["text"]))[0].rstrip(".")) for warning in run.warnings if warning["class"] != "input"]
+    warnings = [escape(beginning(str(warning["text"]))) for warning in run.warnings if warning["class"] != "input"]
     if warnings:
         bad.append(f"warnings of the program: {len(warnings)} ({'; '.join(warnings)})")
     return bad, good

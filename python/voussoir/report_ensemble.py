@@ -5,7 +5,7 @@ from html import escape
 
 from .ensembles import is_number, percent
 from .errors import InputError
-from .report_answers import closing, failed_checks, strength_of, validity
+from .report_answers import beginning, closing, failed_checks, strength_of, validity
 from .report_tables import AWAY, EXTREMES, exceedances, html_table, items, number, with_unit
 from .runs import Run
 
@@ -13,7 +13,7 @@ from .runs import Run
 def band(found, unit):
     """Median of an extreme, and in brackets 16 to 84 % of the motions."""
     ends = ends_of(found, ("p16", "p84"), unit)
-    return f"{number(abs(found['median']), unit)} {unit} ({' to '.join(ends)})"
+    return f"{number(abs(found['median']), unit)} {unit} " + (f"({' to '.join(ends)})" if len(set(ends)) > 1 else "")
 
 
 def opening(run):
@@ -22,13 +22,15 @@ def opening(run):
     if "max_opening" not in found or run.tied:
         return "There are no joints that can open."
     one = found["max_opening"]
-    text = (f"By <b>{number(one['median'], 'mm')} mm</b> in the median, {' to '.join(ends_of(one, ('p16', 'p84'), 'mm'))} mm from 16 to 84 % of the motions, "
-            f"{' to '.join(ends_of(one, ('min', 'max'), 'mm'))} mm in all")
+    text = f"By <b>{number(one['median'], 'mm')} mm</b>"
+    if run.ensemble.n > 1:
+        text += (f" in the median, {' to '.join(ends_of(one, ('p16', 'p84'), 'mm'))} mm from 16 to 84 % of the motions, "
+                 f"{' to '.join(ends_of(one, ('min', 'max'), 'mm'))} mm in all")
     if (joints := run.ensemble.joints) is not None:
         worst = int(joints["opening_median"].argmax())
         text += f"; {escape(run.joint_name(int(joints['joint'][worst])))} opens most"
     text += f". {escape(run.ensemble.known())}"
-    return text + (f" Slip: {band(found['max_slip'], 'mm')}." if "max_slip" in found else "")
+    return text + (f" Slip: {band(found['max_slip'], 'mm').rstrip()}." if "max_slip" in found else "")
 
 
 def closing_of_singles(run):
@@ -63,10 +65,10 @@ def stresses(run):
     faces, found = tensions(run), run.ensemble.extremes
     if not faces:
         return "They were not recorded (Output/Envelope interval)."
-    text = "Tension in the median, and 16 to 84 % of the motions: " + ", ".join(
-        f"<b>{band(found[key], 'MPa').replace(' (', '</b> ' + face + ' (', 1)}" for face, key in faces.items())
+    text = ("Tension in the median, and 16 to 84 % of the motions: " if run.ensemble.n > 1 else "Tension at most ") + ", ".join(
+        f"<b>{band(found[key], 'MPa').replace(' MPa ', f' MPa</b> {face} ', 1)}".rstrip() for face, key in faces.items())
     if (key := f"max_compression_{AWAY}") in found:
-        text += f"; compression {band(found[key], 'MPa')}"
+        text += f"; compression {band(found[key], 'MPa').rstrip()}"
     strength, entry = strength_of(run)
     values = largest_tensions(run)
     over = sum(value > strength for value in values)
@@ -95,7 +97,7 @@ def valid(run):
     text = ""
     if failed:
         text = (f'<b class="exceeded">{len(failed)} of {len(run.ensemble.motions["motion"])} analyses have no result:</b> '
-                f"{escape('; '.join(f'{name} ({status})' for name, status in failed[:8]))}. ")
+                f"{escape('; '.join(f'{name} ({beginning(status)})' for name, status in failed[:8]))}. ")
     return text + validity(run, items(run))
 
 
@@ -167,7 +169,7 @@ def motions(run):
     keys, several = shown(run, found), len(run.ensemble.factors) > 1
     rows = []
     for k in range(len(found["motion"])):
-        status = "" if found["status"][k] == "ok" else escape(found["status"][k])
+        status = "" if found["status"][k] == "ok" else escape(beginning(found["status"][k]))
         cells = [escape(found["name"][k]), *([f"{found['factor'][k]:g}"] if several else [])]
         cells += [number(abs(found[key][k]), EXTREMES[key][1]) if found[key][k] == found[key][k] else "–" for key in keys]
         rows.append(("", [*cells, (status, "exceeded" if status else "")]))
