@@ -307,6 +307,7 @@ def colours():
     from voussoir.palette import COLOURS, line
     style = (Path(__file__).resolve().parent.parent / "python" / "voussoir" / "report.css").read_text()
     states = [style.partition(f"--{name}: ")[2][:7] for name in ("bad", "good")]
+    contrasts(*style.partition("prefers-color-scheme: dark")[::2])
 
     def least(listed, matrix):
         seen = [lab([sum(m * c for m, c in zip(row, linear(colour))) for row in matrix]) for colour in listed]
@@ -319,6 +320,19 @@ def colours():
     former = ["#0b5394", "#cc4125", "#38761d", "#b45f06", "#674ea7", "#45818e", "#7f6000"]
     expect(least(former, vision["protanopia"]) < 5., "the measure does not see colours that look alike")
     expect(len({str(line(k)) for k in range(4 * len(COLOURS))}) == 4 * len(COLOURS), "two lines with the same style")
+
+
+def contrasts(light, dark):
+    """Text and page of both colour schemes, by WCAG 2.2, 1.4.3: a contrast of at least 4.5."""
+    for theme, text in (("light", light), ("dark", dark)):
+        found = {}
+        for name in ("ink", "soft", "accent", "bad", "good", "page", "code", "shade"):
+            colour = text.partition(f"--{name}: ")[2].partition(";")[0]
+            colour = colour if len(colour) == 7 else "#" + "".join(2 * c for c in colour[1:])
+            found[name] = .05 + sum(weight * c for weight, c in zip((.2126, .7152, .0722), linear(colour)))
+        ratios = {(a, b): max(found[a], found[b]) / min(found[a], found[b]) for a in ("ink", "soft", "accent", "bad", "good") for b in ("page", "code", "shade")}
+        print(f"    {theme}: least contrast {min(ratios.values()):.2f}")
+        expect(min(ratios.values()) > 4.5, f"{theme}: {ratios}")
 
 
 def units():

@@ -141,9 +141,10 @@ def what_was_analysed(page, runs):
     panels = [(named(shown, run), f"mesh of {run.name}", lambda run=run: figures.dam(run)) for run in shown]
     caption = "The dam, seen from downstream, the right bank at the left; heavy lines are joints."
     moving = [run for run in runs if run.moves]
-    if moving and any((run.directory / "spectrum.csv").exists() for run in moving):
+    if moving and (moving[0].directory / "spectrum.csv").exists():
         panels += [(named(shown, moving[0]), f"spectrum of {moving[0].name}", lambda: figures.motion_spectrum(moving[0]))]
-        caption += f" Response spectrum of the ground motion{' (of the first one)' if moving[0].ensemble else ''}; dashed: its target, if it has one."
+        has_target = page.made("target spectrum", lambda: any(name.startswith("target") for name in moving[0].table("spectrum.csv")))
+        caption += f" Response spectra of the {'first ' if moving[0].ensemble else ''}ground motion{'; dashed: the target' if has_target else ''}."
     page.row(caption, panels)
 
 
