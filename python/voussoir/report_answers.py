@@ -259,7 +259,8 @@ def notes(runs):
     sentences += [f"<b>{escape(run.name)}.</b> {escape(verdict(run)[1])}" for run in runs if limits_of(run) and verdict(run)[0] != "satisfied"]
     if any(item.band for run in runs for item in items(run).values()):
         sentences.append("Of many motions the table has the median, and in brackets 16 to 84 %.")
-    sentences += list(dict.fromkeys(filter(None, map(scatter, runs))))[:1]
+    else:
+        sentences += [text.replace("This is the answer for one motion; motions", "Motions") for text in map(scatter, runs) if text][:1]
     of_runs = {}
     for run in runs:
         of_runs.setdefault(left_out(run), []).append(run.name)
