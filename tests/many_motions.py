@@ -53,7 +53,7 @@ def many_motions(run, target, n=16, factors=(1.,), failed=(), seed=1):
     rows = []
     for factor in factors:
         for k, (opening, tension) in enumerate(spread, 1):
-            row = {"motion": k, "name": f"seed {k}", "factor": factor, "status": "ok"}
+            row = {"motion": len(rows) + 1, "name": f"seed {k}", "factor": factor, "status": "ok"}
             row |= {name: value * factor * (opening if "opening" in name or "slip" in name else tension) for name, value in extremes.items()}
             for quantity in ("opening", "slip"):
                 row |= {f"{quantity}_{joint['joint']}": max(float(joint[f"{quantity}_{face}"]) for face in ("upstream", "downstream")) * factor * opening *
@@ -65,7 +65,7 @@ def many_motions(run, target, n=16, factors=(1.,), failed=(), seed=1):
     of = lambda factor: [row for row in rows if row["factor"] == factor and row["status"] == "ok"]
     statistics = {factor: {"factor": factor, "n": len(of(factor))} | {name: fractiles([row[name] for row in of(factor)]) for name in extremes} for factor in factors}
     main = 1. if 1. in factors else factors[0]
-    found["ensemble"] = statistics[main] | {"names": [f"seed {k}" for k in range(1, n + 1)], "lanes": 16}
+    found["ensemble"] = statistics[main] | {"names": [row["name"] for row in rows], "lanes": 16}
     if len(factors) > 1:
         found["ensemble"]["factors"] = list(statistics.values())
     for name in ("limits", "limits_not_evaluated", "limits_not_judged", "overstress", "waterstop", "residual", "blocks", "accelerations", "energy_balance_error",

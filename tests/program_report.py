@@ -198,13 +198,18 @@ def motions():
         expect(words in page.text, f"'{words}' is not on the page of many motions")
     expect("Not shown" not in page.text and "motions of one spectrum differ" not in page.text and len(page.images) >= 10, page.text[-1500:])
     shutil.copytree("run", "many/motion-3")
-    expect("Motion 3: " in dict(asked(Run("many")))["Do they close again?"], "a motion with full tables")
+    expect("Motion 3 (seed 3): " in dict(asked(Run("many")))["Do they close again?"], "a motion with full tables")
     many_motions("run", "alone", n=1)
     said = dict(asked(Run("alone")))["How far do the joints open?"]
     expect(said.startswith(f"By <b>{number(of('max_opening', 'alone')[0], 'mm')} mm</b>; joint") and "One motion" in said and " to " not in said, said)
     reports("alone")
     expect("Not shown" not in Reader("alone/report.html").text, "one motion of an ensemble")
     many_motions("run", "factors", n=12, factors=(.5, 1., 2.), failed=(3, 7))
+    shutil.copytree("run", "factors/motion-14")
+    expect("Motion 14 (seed 2, factor 1): " in dict(asked(Run("factors")))["Do they close again?"], "name and factor of a motion with full tables")
+    from voussoir.report_scene import analysed as rows_of_scene
+    expect("12 artificial motions" in (said := dict(rows_of_scene(Run("factors")))["Ground motion"]) and "the first, factor 0.5: peak" in said and
+           "factors 0.5, 1, 2" in said, said)
     reports("factors", "run", "--output", "two.html")
     text = Reader("two.html").text
     expect("Incremental dynamic analysis" in text and text.count("unstable at 3.2 s") == 2 and f"({low_to_high(of('max_opening', 'factors'))})" in text, text[:3000])

@@ -113,6 +113,13 @@ class Ensemble:
         found = ((re.fullmatch(r"motion-(\d+)", path.name), path) for path in self.directory.glob("motion-*"))
         return sorted((int(match[1]), path) for match, path in found if match and (path / "summary.json").is_file())
 
+    def label(self, number):
+        """Name and factor of a motion in brackets, as " (seed 3, factor 0.5)"."""
+        for k in np.flatnonzero(self.motions["motion"] == number)[:1]:
+            factor = f", factor {self.motions['factor'][k]:g}" if len(self.factors) > 1 else ""
+            return f" ({self.motions['name'][k]}{factor})"
+        return ""
+
     def known(self):
         """Sentence on how well the median of the largest opening (or of the first extreme) is known."""
         name = "max_opening" if "max_opening" in self.extremes else next(iter(self.extremes), None)

@@ -39,7 +39,7 @@ def closing_of_singles(run):
     for k, path in run.ensemble.singles():
         try:
             single = Run(path)
-            texts.append(f"Motion {k}: {closing(single, items(single))}")
+            texts.append(f"Motion {k}{escape(run.ensemble.label(k))}: {closing(single, items(single))}")
         except InputError:
             continue
     return " ".join(texts) or ("Unknown: openings over time are stored for chosen motions only, by <code>set Ensemble output</code> in subsection Motion, "

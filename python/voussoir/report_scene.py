@@ -88,7 +88,7 @@ def source(run):
     """Where the ground motion is from."""
     if run.ensemble:
         names = run.ensemble.found.get("names")
-        names = [str(name) for name in names] if isinstance(names, list) else []
+        names = list(dict.fromkeys(map(str, names))) if isinstance(names, list) else []  # each factor repeats them
         seeds = [int(match[1]) for name in names if (match := re.fullmatch(r"seed (\d+)", name))]
         if len(seeds) > 2 and len(seeds) == len(names) and seeds == list(range(seeds[0], seeds[0] + len(seeds))):
             return f"{len(names)} artificial motions of one spectrum ({entry(run, 'Motion/Spectrum') or 'target'}), seeds {seeds[0]} to {seeds[-1]}"
@@ -130,7 +130,8 @@ def motion(run):
     seconds = steps * dt if isinstance(steps, int) and isinstance(dt, (int, float)) else run.value("Motion/Duration")
     length = f"{seconds:.4g} s" if seconds > 0. else ""
     scaled = f"factors {', '.join(f'{x:g}' for x in ensemble_factors)}" if len(ensemble_factors) > 1 else f"factor {factor}" if factor not in ("1", "") else ""
-    first = "the first: " if run.ensemble and peaks(run) else ""
+    factor_of_first = f", factor {run.ensemble.motions['factor'][0]:g}" if len(ensemble_factors) > 1 else ""
+    first = f"the first{factor_of_first}: " if run.ensemble and peaks(run) else ""
     return "; ".join(filter(None, (source(run), first + peaks(run), length, scaled)))
 
 
