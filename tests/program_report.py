@@ -213,6 +213,7 @@ def motions():
     reports("factors", "run", "--output", "two.html")
     text = Reader("two.html").text
     expect("Incremental dynamic analysis" in text and text.count("unstable at 3.2 s") == 2 and f"({low_to_high(of('max_opening', 'factors'))})" in text, text[:3000])
+    expect(dict(asked(Run("factors")))["How far do the joints open?"].startswith("With the factor 1, by <b>"), "the factor of the answers")
     said = dict(asked(Run("factors")))["Are the results valid?"]
     expect("2 of 36 analyses have no result:</b> seed 3, factor 2 (unstable at 3.2 s); seed 7, factor 2" in said, said)
     drawn_motions()

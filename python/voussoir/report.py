@@ -26,7 +26,7 @@ from .errors import ComputationError, InputError
 from .prm import prm_text
 from .report_answers import accuracy_sentence, answers, compared, mesh_quality, modes, modes_of, notes
 from .report_needs import needs_of
-from .report_scene import analysed
+from .report_scene import analysed, factor_of_first
 from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, verdict, wedges, wedges_of
 from .runs import NotComputed, Run, Skip, name_apart, refuse_links
 
@@ -144,7 +144,8 @@ def what_was_analysed(page, runs):
     if moving and (moving[0].directory / "spectrum.csv").exists():
         panels += [(named(shown, moving[0]), f"spectrum of {moving[0].name}", lambda: figures.motion_spectrum(moving[0]))]
         has_target = page.made("target spectrum", lambda: any(name.startswith("target") for name in moving[0].table("spectrum.csv")))
-        caption += f" Response spectra of the {'first ' if moving[0].ensemble else ''}ground motion{'; dashed: the target' if has_target else ''}."
+        caption += (f" Response spectra of the {'first ' if moving[0].ensemble else ''}ground motion{factor_of_first(moving[0])}"
+                    f"{'; dashed: the target' if has_target else ''}.")
     page.row(caption, panels)
 
 

@@ -22,7 +22,7 @@ def opening(run):
     if "max_opening" not in found or run.tied:
         return "There are no joints that can open."
     one = found["max_opening"]
-    text = f"By <b>{number(one['median'], 'mm')} mm</b>"
+    text = f"{f'With the factor {run.ensemble.factor:g}, by' if len(run.ensemble.factors) > 1 else 'By'} <b>{number(one['median'], 'mm')} mm</b>"
     if run.ensemble.n > 1:
         text += (f" in the median, {' to '.join(ends_of(one, ('p16', 'p84'), 'mm'))} mm from 16 to 84 % of the motions, "
                  f"{' to '.join(ends_of(one, ('min', 'max'), 'mm'))} mm in all")

@@ -121,6 +121,11 @@ def peaks(run):
     return f"peak acceleration {words}" if words else ""
 
 
+def factor_of_first(run):
+    """Factor of the first of many motions, if they have several."""
+    return f", factor {run.ensemble.motions['factor'][0]:g}" if run.ensemble and len(run.ensemble.factors) > 1 else ""
+
+
 def motion(run):
     if not run.moves:
         return "none: the static state alone"
@@ -130,8 +135,7 @@ def motion(run):
     seconds = steps * dt if isinstance(steps, int) and isinstance(dt, (int, float)) else run.value("Motion/Duration")
     length = f"{seconds:.4g} s" if seconds > 0. else ""
     scaled = f"factors {', '.join(f'{x:g}' for x in ensemble_factors)}" if len(ensemble_factors) > 1 else f"factor {factor}" if factor not in ("1", "") else ""
-    factor_of_first = f", factor {run.ensemble.motions['factor'][0]:g}" if len(ensemble_factors) > 1 else ""
-    first = f"the first{factor_of_first}: " if run.ensemble and peaks(run) else ""
+    first = f"the first{factor_of_first(run)}: " if run.ensemble and peaks(run) else ""
     return "; ".join(filter(None, (source(run), first + peaks(run), length, scaled)))
 
 
