@@ -19,6 +19,7 @@ from http.server import BaseHTTPRequestHandler, HTTPServer
 from pathlib import Path
 
 from browser import Browser, find_browser
+from many_motions import many_motions, rows_of, write_rows
 from program_report import LIMITS, Reader
 from voussoir import report_view3d as view3d
 from run_program import expect, refused, run_cases, runs, settings, summary, voussoir, write_scene
@@ -87,6 +88,7 @@ def page():
         # Version, revision, deal.II, law and scene; name of a monolith, extreme and limit; warning; entry and its value; log
         shown = harmless("page.html").count("<x-hostile onload=ran()>&lt;")
         expect(shown > 20, f"the text is on the page {shown} times")
+    hostile_motions(report, text)
     found, counts = summary("sound"), {"shown": 0, "refused": 0}
     shutil.copytree("sound", "field")
     for path in places(found):
@@ -107,6 +109,17 @@ def page():
     expect(min(counts.values()) > 50, f"{counts}")
     Path("field/summary.json").write_text('{"extremes":' + "[" * 100000 + "]" * 100000 + "}")
     refused(["report", "field"], "Repeat the run")
+
+
+def hostile_motions(report, text):
+    """Many motions whose names, states and extremes are hostile text."""
+    many_motions("sound", "many", n=4, factors=(1., 2.), failed=(2,))
+    rows, found = rows_of("many/ensemble.csv"), summary("many")
+    write_rows("many/ensemble.csv", [row | {"name": text, "status": text if row["status"] != "ok" else "ok", f"max_{text}": 1.} for row in rows])
+    found["ensemble"] |= {"names": [text] * 4, f"max_{text}": found["ensemble"]["max_slip"], "motions_above_limit": {text: 1}}
+    (Path("many") / "summary.json").write_text(json.dumps(found))
+    expect(page_of(report, ("many",), "many motions") and page_of(report, ("many", "sound"), "many motions and a run"), "many motions are refused")
+    expect(harmless("page.html").count("<x-hostile onload=ran()>&lt;") > 5, "the text is not on the page of many motions")
 
 
 def figures():

@@ -19,6 +19,7 @@ from pathlib import Path
 from unittest import mock
 
 from browser import Browser, find_browser
+from many_motions import fractile, many_motions, rows_of
 from program_physics import Solution, close, read_vtu
 from run_program import (arch_mesh, expect, from_file, refused, report, reports, run_cases, runs, settings, summary, voussoir, write_mesh,
                          write_scene)
@@ -127,6 +128,134 @@ def beside_static():
     expect("None: the static state alone." in Reader("rest.html").text, "a static state alone")
 
 
+def analysed():
+    """The first page says what was analysed, with the numbers of the files; several runs are one table; places are words."""
+    write_scene("scene.prm", LIMITS)
+    runs("scene.prm", "--output", "run")
+    runs("scene.prm", "--output", "tied", *settings("Joints/Model=tied"))
+    reports("run")
+    text = Path("run/report.html").read_text(encoding="utf-8")
+    first = text[text.index("What was analysed"):text.index(">Results<")]
+    mesh, history = summary("run")["mesh"], table("run/history.csv")
+    peak = max(abs(float(row["base_acceleration_x"])) for row in history) / 9.80665
+    water = float(next(line for line in Path("run/scene.prm").read_text().splitlines() if "set Water level" in line).split("=")[1].split("#")[0])
+    for words in ("210 m high", f"crest {mesh['crest_length']:.0f} m long", f"{mesh['volume'] / 1e6:.3g} million m³", f"{mesh['cells']} elements",
+                  "2 contraction joints, law FJA", "friction 0.6", f"level {water:g} m", "motion.txt", f"{peak:.3g} g along the river", "rigid: the base",
+                  "The model leaves out cracking", "motions of one spectrum differ (openings by about ±25 %, tensions by about ±10 %)", "set Ensemble"):
+        expect(words in first, f"'{words}' is not on the first page: {first}")
+    expect("1-16" not in first and text.count("<img") > first.count("<img") == 2, "pictures of the first page")
+    reports("run", "tied", "--output", "pair.html")
+    text = Path("pair.html").read_text(encoding="utf-8")
+    first = text[text.index("<h2>Answers"):text.index("<h2>Results")]
+    expect(first.count("<table>") == 1 and first.count("<tr>") == 3 and 'class="answers"' not in first, f"{first}")
+    expect(f"{1e3 * summary('run')['extremes']['max_opening']['value']:.3g}"[:4] in first and first.count("leaves out") == 2, f"{first}")
+    from voussoir.report_places import Places
+    from voussoir.runs import Run
+    places = Places(Run("run"))
+    for row in table("run/joint_points.csv"):
+        place = place_of(row)
+        level = "crest" if place[2] > 209.9 else "lowest point" if place[2] < .1 else f"elevation {place[2]:.0f} m"
+        expect(places.words("max_opening", place, 0.).startswith(f"joint {row['joint']}, {level}"), f"{row}: {places.words('max_opening', place, 0.)}")
+        expect(float(row["depth"]) > 0. or places.words("max_slip", place, 0.).endswith("upstream"), f"{row}: {places.words('max_slip', place, 0.)}")
+    for row in table("run/faces.csv"):  # at joints two nodes have one place: the value decides
+        words = places.words("max_tension_upstream", place_of(row), float(row["max_principal"]))
+        expect(words.startswith(f"monolith {row['monolith']}, ") and words.endswith(row["face"]), f"{row}: {words}")
+    from voussoir.drawing import away_from_base
+    for face, away in away_from_base(Run("run")).items():
+        largest = max(float(row["max_principal"]) for row, counts in zip([row for row in table("run/faces.csv") if row["face"] == face], away) if counts)
+        close(largest, summary("run")["extremes"][f"max_tension_{face}_away_from_base"]["value"], 1e-6, f"largest tension in the figure, {face}")
+    expect(places.words("max_opening", [900., 0., -5.], 0.) == "at (900, 0, −5) m", places.words("max_opening", [900., 0., -5.], 0.))
+
+
+def motions():
+    """Many motions: the answers are median and band of ensemble.csv; limits and cracks are counted; analyses without result are named."""
+    write_scene("scene.prm", LIMITS)
+    runs("scene.prm", "--output", "run", *settings("Joints/Friction=0.3", "Limits/Opening=22 mm", "Limits/Tensile strength=8 MPa"))
+    many_motions("run", "many")
+    of = lambda name, directory="many": [float(row[name]) for row in rows_of(f"{directory}/ensemble.csv") if row["status"] == "ok" and float(row["factor"]) == 1.]
+    from voussoir.report_ensemble import asked
+    from voussoir.report_tables import number
+    from voussoir.runs import Run
+    said = {question: text for question, text in asked(Run("many"))}
+    openings = of("max_opening")
+    low, median, high = (number(fractile(openings, share), "mm") for share in (.16, .5, .84))
+    expect(f"<b>{median} mm</b> in the median, {low} to {high} mm from 16 to 84 %" in said["How far do the joints open?"], f"{said}")
+    expect("16 motions: the median is known within 7.5 % (68 %), 15 % (95 %)." in said["How far do the joints open?"], f"{said}")
+    tensions = [max(pair) for pair in zip(of("max_tension_upstream_away_from_base"), of("max_tension_downstream_away_from_base"))]
+    over = sum(value > 8e6 for value in tensions)
+    crack = f"<b class=\"exceeded\">The concrete would crack</b> in {over} of 16 motions" if over else "In no motion is the tension above"
+    expect(crack in said["How large are the stresses?"], f"{over}: {said}")
+    expect(f"Opening (22 mm) in {sum(x > .022 for x in openings)} of 16 motions" in said["Which limits are exceeded?"] and min(openings) < .022 < max(openings),
+           f"{said}, {openings}")
+    counted = summary("many")
+    counted["ensemble"]["motions_above_limit"] = {"opening": 3, "overstress_duration": 0}
+    Path("many/summary.json").write_text(json.dumps(counted))
+    said = dict(asked(Run("many")))["Which limits are exceeded?"]
+    expect(said == "Exceeded: opening (22 mm) in 3 of 16 motions. Satisfied in all motions: duration of overstress.", said)
+    reports("many")
+    page = Reader("many/report.html")
+    for words in ("16 artificial motions" if "16 artificial" in page.text else "16 motions", "seed 16", "the median over the motions", "Unknown: openings over time"):
+        expect(words in page.text, f"'{words}' is not on the page of many motions")
+    expect("Not shown" not in page.text and "motions of one spectrum differ" not in page.text and len(page.images) >= 10, page.text[-1500:])
+    shutil.copytree("run", "many/motion-3")
+    expect("Motion 3 (seed 3): " in dict(asked(Run("many")))["Do they close again?"], "a motion with full tables")
+    many_motions("run", "alone", n=1)
+    said = dict(asked(Run("alone")))["How far do the joints open?"]
+    expect(said.startswith(f"By <b>{number(of('max_opening', 'alone')[0], 'mm')} mm</b>; joint") and "One motion" in said and " to " not in said, said)
+    reports("alone")
+    expect("Not shown" not in Reader("alone/report.html").text, "one motion of an ensemble")
+    many_motions("run", "factors", n=12, factors=(.5, 1., 2.), failed=(3, 7))
+    shutil.copytree("run", "factors/motion-14")
+    expect("Motion 14 (seed 2, factor 1): " in dict(asked(Run("factors")))["Do they close again?"], "name and factor of a motion with full tables")
+    from voussoir.report_scene import analysed as rows_of_scene
+    expect("12 artificial motions" in (said := dict(rows_of_scene(Run("factors")))["Ground motion"]) and "the first, factor 0.5: peak" in said and
+           "factors 0.5, 1, 2" in said, said)
+    reports("factors", "run", "--output", "two.html")
+    text = Reader("two.html").text
+    expect("Incremental dynamic analysis" in text and text.count("unstable at 3.2 s") == 2 and f"({low_to_high(of('max_opening', 'factors'))})" in text, text[:3000])
+    expect(dict(asked(Run("factors")))["How far do the joints open?"].startswith("With the factor 1, by <b>"), "the factor of the answers")
+    said = dict(asked(Run("factors")))["Are the results valid?"]
+    expect("2 of 36 analyses have no result:</b> seed 3, factor 2 (unstable at 3.2 s); seed 7, factor 2" in said, said)
+    drawn_motions()
+    whole = Path("many/ensemble.csv").read_text()
+    for damaged in ("", "motion,name\n1,a\n", whole.replace("seed 2,1.0,ok,", "seed 2,1.0,ok,x", 1)):
+        Path("many/ensemble.csv").write_text(damaged)
+        refused(["many"], "many/ensemble.csv", "Repeat the run", run=report)
+
+
+def low_to_high(values):
+    from voussoir.report_tables import number
+    return f"{number(fractile(values, .16), 'mm')} to {number(fractile(values, .84), 'mm')}"
+
+
+def drawn_motions():
+    """Lines of the figures against ensemble.csv: each motion, median, and a fractile that ends where motions have no result."""
+    from voussoir import figures
+    from voussoir.ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
+    from voussoir.drawing import plt
+    from voussoir.runs import Run
+    rows, factors = rows_of("factors/ensemble.csv"), (.5, 1., 2.)
+    run, (_, axes) = Run("factors"), plt.subplots(1, 3)
+    draw_joint_band(axes[0], run, "opening")
+    lines = [list(line.get_ydata()) for line in axes[0].lines]
+    for row in rows:
+        if float(row["factor"]) == 1.:
+            expect(any(len(y) == 2 and all(abs(a - 1e3 * float(row[f"opening_{j}"])) < 1e-9 for j, a in enumerate(y, 1)) for y in lines), f"{row['name']} is not drawn")
+    draw_distribution(axes[1], run)
+    close(max(axes[1].lines[1].get_xdata()), 1e3 * max(float(row["max_opening"]) for row in rows if row["factor"] == "1.0"), 1e-9, "largest opening")
+    draw_dynamic_analysis(axes[2], run)
+    median, low, high = (line for line in axes[2].lines if len(line.get_ydata()) == 4 and line.get_color() != "0.62")
+    for factor, x in zip(factors[:2], list(median.get_xdata())[1:]):
+        close(x, 1e3 * fractile([float(row["max_opening"]) for row in rows if float(row["factor"]) == factor], .5), 1e-9, f"median at factor {factor}")
+    expect(math.isnan(list(high.get_xdata())[-1]) and not math.isnan(list(low.get_xdata())[-1]), "84 % with 2 of 12 without result")
+    plt.close("all")
+    with mock.patch.object(sys, "argv", ["figures", "factors", "many"]), mock.patch.object(figures, "envelopes", lambda *_: None):
+        expect(figures.main() == 0, "figures")
+    for name in ("openings", "slips", "distribution", "spectrum"):
+        expect(Path("many/figures", f"{name}.png").exists() and Path("many/figures", f"{name}.pdf").read_bytes()[:4] == b"%PDF", name)
+    expect(Path("factors/figures/ida.pdf").exists() and not Path("many/figures/ida.pdf").exists(), "incremental dynamic analysis")
+
+
 def browser():
     """Chromium shows the page: no error, every figure, no sideways scrolling on a telephone, a PDF."""
     if find_browser() is None:
@@ -152,6 +281,8 @@ def browser():
                                         "e.className === 'table' && e.scrollWidth > e.clientWidth).map(e => e.outerHTML.slice(0, 100))")
                 expect(not beyond, f"{path} at {width}: beyond the screen: {beyond}")
                 expect(not chromium.complaints(), f"{path} at {width}: {chromium.complaints()}")
+                end = chromium.value("(document.querySelector('.answers') || document.querySelector('.first table')).getBoundingClientRect().bottom + scrollY")
+                expect(width != 680 or end < 263 * 96 / 25.4, f"{path}: the answers end at {end} px, A4 within its margins has 994")
                 small = chromium.value("Math.min(...[...document.querySelectorAll('p,td,th,figcaption,li,pre,code')]"
                                        ".map(e => parseFloat(getComputedStyle(e).fontSize)))")
                 expect(small >= (28 / 3 if width == 680 else 11),  # 7 pt on paper
@@ -182,6 +313,7 @@ def colours():
     from voussoir.palette import COLOURS, line
     style = (Path(__file__).resolve().parent.parent / "python" / "voussoir" / "report.css").read_text()
     states = [style.partition(f"--{name}: ")[2][:7] for name in ("bad", "good")]
+    contrasts(*style.partition("prefers-color-scheme: dark")[::2])
 
     def least(listed, matrix):
         seen = [lab([sum(m * c for m, c in zip(row, linear(colour))) for row in matrix]) for colour in listed]
@@ -194,6 +326,19 @@ def colours():
     former = ["#0b5394", "#cc4125", "#38761d", "#b45f06", "#674ea7", "#45818e", "#7f6000"]
     expect(least(former, vision["protanopia"]) < 5., "the measure does not see colours that look alike")
     expect(len({str(line(k)) for k in range(4 * len(COLOURS))}) == 4 * len(COLOURS), "two lines with the same style")
+
+
+def contrasts(light, dark):
+    """Text and page of both colour schemes, by WCAG 2.2, 1.4.3: a contrast of at least 4.5."""
+    for theme, text in (("light", light), ("dark", dark)):
+        found = {}
+        for name in ("ink", "soft", "accent", "bad", "good", "page", "code", "shade"):
+            colour = text.partition(f"--{name}: ")[2].partition(";")[0]
+            colour = colour if len(colour) == 7 else "#" + "".join(2 * c for c in colour[1:])
+            found[name] = .05 + sum(weight * c for weight, c in zip((.2126, .7152, .0722), linear(colour)))
+        ratios = {(a, b): max(found[a], found[b]) / min(found[a], found[b]) for a in ("ink", "soft", "accent", "bad", "good") for b in ("page", "code", "shade")}
+        print(f"    {theme}: least contrast {min(ratios.values()):.2f}")
+        expect(min(ratios.values()) > 4.5, f"{theme}: {ratios}")
 
 
 def units():
@@ -271,6 +416,8 @@ def answers():
         text = answered("run")["Do they close again?"]
         expect("the joint that opens closes again" in text if shift == 0. else "Of 1 joints that open at the crest, 1 stays open" in text and "joint 1 (5.00 mm)" in text and f"{float(history[-1]['time']):.2f} s" in text, text)
     found["warnings"] = []
+    log = Path("run/log.txt").read_text()
+    Path("run/log.txt").write_text("\n".join(line for line in log.splitlines() if not line.startswith("warning: ")))
     cracking("run", found)
     said = answered("run")["Are the results valid?"]
     expect("passes its checks" in said and "not estimated" in said, said)
@@ -282,9 +429,14 @@ def answers():
         expect(f"Not all checks are satisfied:</b> {words}" in said, said)
     Path("run/summary.json").write_text(json.dumps({**found, "warnings": [{"class": "input", "text": "A/B has no effect.", "place": "a.prm, line 2"}]}))
     said = answered("run")["Are the results valid?"]
-    expect("passes its checks" in said and "warnings of the program: none; remarks on the input file: 1" in said, said)
+    expect("passes its checks" in said and "remarks on the input file: 1" in said and "none" not in said, said)
     reports("run")
     expect("A/B has no effect." in Reader("run/report.html").text, "a remark on the input is not in the list")
+    Path("run/log.txt").write_text(log + "warning: Only the log has this.\n")
+    expect("Only the log has this" in answered("run")["Are the results valid?"], "a warning that only the log has")
+    reports("run")
+    text = Reader("run/report.html").text
+    expect("Only the log has this." in text and "None." not in text.partition("Warnings")[2][:200], "none beside a warning")
 
 
 def cracking(directory, found):
@@ -778,4 +930,4 @@ def area(corners):
 
 
 if __name__ == "__main__":
-    run_cases(page, beside_static, browser, colours, units, answers, content, refusals, received, numbers, unjudged, undecided, earlier, keys, ended, spectrum)
+    run_cases(page, beside_static, analysed, motions, browser, colours, units, answers, content, refusals, received, numbers, unjudged, undecided, earlier, keys, ended, spectrum)

@@ -261,6 +261,26 @@ def turn(chromium, move):
     chromium.value("document.querySelector('.view3d-reset').click()")
     settled(chromium)
     expect(np.allclose(camera(), before) and picture() == seen, "the view at the start")
+    keyboard(chromium, camera, before)
+
+
+def keyboard(chromium, camera, before):
+    """Arrow keys turn the focused view, + comes nearer, Home goes back; every control has a name."""
+    chromium.value(f"{VIEW}.model.canvas.focus()")
+    press = lambda key: [chromium.call("Input.dispatchKeyEvent", type=kind, key=key, text=key if len(key) == 1 and kind == "keyDown" else "")
+                         for kind in ("keyDown", "keyUp")]
+    for _ in range(3):
+        press("ArrowLeft")
+    after = camera()
+    azimuths = [np.arctan2(x[1], x[0]) for x in (before, after)]
+    expect(abs(azimuths[0] - azimuths[1] - .3) < 1e-6, f"arrow keys turn from {azimuths[0]} to {azimuths[1]}")
+    press("+")
+    expect(np.linalg.norm(camera()) < .95 * np.linalg.norm(after), "+ does not come nearer")
+    press("Home")
+    expect(np.allclose(camera(), before), "Home does not go back to the start")
+    nameless = chromium.value("[...document.querySelectorAll('select, input, button, canvas[tabindex]')].filter(e => e.offsetParent && !(e.labels && e.labels.length) && "
+                              "!e.getAttribute('aria-label') && !e.textContent.trim()).map(e => e.outerHTML.slice(0, 80))")
+    expect(not nameless, f"controls without a name: {nameless}")
 
 
 def inside(chromium, what):

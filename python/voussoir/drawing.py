@@ -62,6 +62,19 @@ def edges(drawn, places, cells):
     return outline, joints
 
 
+def away_from_base(run):
+    """Face -> which of its nodes are farther from the base than a tenth of the height of the dam: closer to it, stresses grow with refinement."""
+    places = {name: np.stack([face[c] for c in "xyz"], axis=1) for name, face in run.faces.items()}
+    top = max(x[:, 2].max() for x in places.values())
+    height = top - min(x[:, 2].min() for x in places.values())
+    sides = [side for name, face in run.faces.items() for side in edges(places[name], places[name], face["quads"])[0]]
+    base = np.array([node for side in sides if side[:, 2].min() < top - .005 * height for node in side])
+    if not len(base):
+        return {name: np.ones(len(x), dtype=bool) for name, x in places.items()}
+    base = np.unique(np.round(base, 6), axis=0)
+    return {name: np.array([((base - node)**2).sum(axis=1).min() for node in x]) > (.1 * height)**2 for name, x in places.items()}
+
+
 def common_levels(runs, column):
     """Round contour levels [MPa] for both faces of all runs, so that they can be compared: between the 1st and 99th
     percentile (a heel is singular), and zero among them."""
@@ -96,23 +109,45 @@ def draw_face(axes, run, name, column, levels, strength=0.):
                         linestyles="solid")
     if values.min() < strength < values.max() and column == "max_principal" and strength > 0.:
         axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=[strength], colors="k", linewidths=1.4)
-    outline, joints = edges(np.stack([s, z], axis=1), np.stack([face["x"], face["y"], z], axis=1), cells)
-    axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5))
-    axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1, capstyle="round"))
-    label_face(axes, face, stress, "max" in column)
+    finish_face(axes, run, name, stress if "max" in column else -stress, lambda k: f"{'max' if 'max' in column else 'min'} {stress[k]:.2f} MPa")
     return contours
 
 
-def label_face(axes, face, stress, tension):
-    """Marks the largest value, the banks and the side of the view."""
+def draw_demand(axes, run, name, strength):
+    """One developed face with the largest principal stress over the static tensile strength [Pa]; heavy lines at 1 and 2. The contours."""
+    if name not in run.faces:
+        raise Skip(f"no {name} face in faces.csv")
+    face = run.faces[name]
+    ratio = face["max_principal"] / strength
+    points, corners = triangles(np.stack([face["s"], face["z"]], axis=1), face["quads"])
+    values = np.concatenate([ratio, ratio[face["quads"]].mean(axis=1)])
+    contours = axes.tricontourf(points[:, 0], points[:, 1], corners, values, levels=DEMANDS, colors=["#f4f4f2", "#e3e3df", "#fff0b3", "#fed976", "#fdae61",
+                                "#f46d43", "#d73027", "#a50026", "#67001f"][:len(DEMANDS) - 1], extend="both")
+    contours.cmap.set_under("#f4f4f2")
+    contours.cmap.set_over("#4a0016")
+    for level in (1., 2.):
+        if values.min() < level < values.max():
+            axes.tricontour(points[:, 0], points[:, 1], corners, values, levels=[level], colors="k", linewidths=1.2)
+    finish_face(axes, run, name, ratio, lambda k: f"max {ratio[k]:.2f}")
+    return contours
+
+
+def finish_face(axes, run, name, values, words):
+    """Draws the outline and the joints of a face, and marks the largest of the values away from the base with words(its node), the banks and the
+    side of the view."""
+    face = run.faces[name]
     s, z = face["s"], face["z"]
+    outline, joints = edges(np.stack([s, z], axis=1), np.stack([face["x"], face["y"], z], axis=1), face["quads"])
+    axes.add_collection(LineCollection(joints, colors="k", linewidths=0.5))
+    axes.add_collection(LineCollection(outline, colors="k", linewidths=1.1, capstyle="round"))
     width, height = np.ptp(s), np.ptp(z)
-    worst = np.argmax(stress) if tension else np.argmin(stress)
-    name = "max" if tension else "min"
-    axes.plot(s[worst], z[worst], marker="o", markersize=6, markerfacecolor="#ffd966", markeredgecolor="k",
-              clip_on=False, zorder=5, linestyle="none",
-              label=minus(f"{name} {stress[worst]:.2f} MPa at s = {s[worst] + 0.:.0f} m, z = {z[worst] + 0.:.0f} m").replace("\N{MINUS SIGN}0 m", "0 m"))
-    axes.legend(loc="upper center", handletextpad=0.1, borderaxespad=0)
+    away = away_from_base(run)[name]
+    if away.any():
+        worst = np.flatnonzero(away)[values[away].argmax()]
+        text = f"{words(worst)} at s = {s[worst] + 0.:.0f} m, z = {z[worst] + 0.:.0f} m"
+        axes.plot(s[worst], z[worst], marker="o", markersize=6, markerfacecolor="#ffd966", markeredgecolor="k", clip_on=False, zorder=5,
+                  linestyle="none", label=minus(text).replace("\N{MINUS SIGN}0 m", "0 m"))
+        axes.legend(loc="upper center", handletextpad=0.1, borderaxespad=0)
     right_first = np.cov(s, face["y"])[0, 1] > 0  # y points to the left bank
     banks = ("right bank", "left bank") if right_first else ("left bank", "right bank")
     for bank, place, side in zip(banks, (0.01, 0.99), ("left", "right")):
@@ -128,6 +163,30 @@ def stress_bar(figure, contours, axes, levels, kind="principal", **place):
     bar = figure.colorbar(contours, ax=axes, orientation="horizontal", ticks=levels, **place)
     bar.set_label(f"{kind} stress, tension positive [MPa]")
     return bar
+
+
+def demand_bar(figure, contours, axes, **place):
+    bar = figure.colorbar(contours, ax=axes, orientation="horizontal", ticks=DEMANDS, **place)
+    bar.set_label("largest principal stress over static tensile strength [-]")
+    return bar
+
+
+DEMANDS = np.array([0., .5, 1., 1.2, 1.4, 1.6, 1.8, 2., 3., 4.])
+
+
+def draw_overstress(axes, run):
+    """Cumulative duration of overstress over the demand-capacity ratio, against what is allowed: by the scene, else by the guide."""
+    found = run.summary.get("overstress")
+    if not found or not run.moves:
+        raise Skip("no static tensile strength is given (Limits/Static tensile strength)" if run.moves else "the run is of the static state alone")
+    for name, colour in FACES.items():
+        duration = found[name].get("duration_away_from_base", found[name]["duration"])  # the latter of earlier versions
+        axes.plot(found["levels"], duration, color=colour, marker="o", markersize=3, label=name)
+    allowed = run.limit("Overstress duration")
+    axes.plot([1., 2.], [allowed or .4, 0.], **LIMIT, label="allowed" if allowed > 0. else "USACE EM 1110-2-6053")
+    axes.set(xlabel="principal stress over static tensile strength [-]", ylabel="cumulative duration [s]", xlim=(0.98, 2.02))
+    axes.set_ylim(bottom=0.)
+    axes.legend(loc="upper right")
 
 
 # ---------------------------------------------------------------- joints
@@ -248,6 +307,23 @@ def draw_spectrum(axes, table, direction):
     axes.loglog(period, table[f"spectrum_{direction}"], color=UPSTREAM, linewidth=1.1, label=DIRECTIONS[direction])
     show_periods(axes, period)
     axes.legend(loc="lower left", borderaxespad=0.2)
+
+
+def draw_motion_spectrum(axes, table):
+    """Response spectra of all components of the motion in one axes, with their targets."""
+    shown, targets = [d for d in DIRECTIONS if np.any(table[f"spectrum_{d}"])], {}
+    if not shown:
+        raise Skip("the base is at rest")
+    for number, direction in enumerate(shown):
+        axes.loglog(table["period"], table[f"spectrum_{direction}"], **line(number), linewidth=1.1, label=DIRECTIONS[direction])
+        if f"target_{direction}" in table:
+            targets.setdefault(table[f"target_{direction}"].tobytes(), table[f"target_{direction}"])
+    for number, target in enumerate(targets.values()):
+        axes.loglog(table["period"], target, color="k", linewidth=1.3, linestyle=(0, (4, 2)), zorder=3, label=None if number else "target")
+    show_periods(axes, table["period"])
+    axes.set_ylabel("pseudo-acceleration [m/s²]")
+    axes.legend(loc="lower left", borderaxespad=0.2)
+    note(axes, f"damping {100. * table['damping'][0]:g} %")
 
 
 def draw_floor_spectra(axes, table, direction):

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Makes DIR/figures/*.png from the output directory of a run of voussoir, or of several: their scales are then the same.
+"""Makes DIR/figures/*.png from the output directory of a run of voussoir, or of several: their scales are then the same. Openings,
+slips, spectra, distributions and demands are also made as PDF.
 
-    scripts/figures.py DIR... [--format png|svg|pdf]
+    scripts/figures.py DIR... [--format png|svg|pdf] [--limits]
 
 envelope_{upstream,downstream}[_compression]   principal stress over the run, developed elevation views
 envelope_{arch,cantilever,vertical}_{upstream,downstream}[_compression]   stresses in these directions
@@ -10,8 +11,15 @@ history, joint_history                         crest and base; the joints that o
 spectrum                                       of the motion, with the design spectrum
 floor_spectra                                  of the absolute accelerations of crest and probes, with that of the ground
 energy                                         energies and their balance
+demand_{upstream,downstream}, overstress       with --limits: demand-capacity ratios, and the durations above them against the allowed one
 
-Of the output directory of `voussoir modes`: modes.png. Figures whose data are missing are skipped with a message.
+Of many motions (Motion/Ensemble): envelopes of the median, openings and slips of each motion with median and band, spectrum, and
+
+distribution                                   share of the motions up to a largest opening and a largest tension
+ida                                            of several factors: factor over the largest opening and tension (incremental dynamic analysis)
+
+Marked in an envelope is the largest value away from the base. Of the output directory of `voussoir modes`: modes.png. Figures
+whose data are missing are skipped with a message.
 Exit status: 0 done, 1 some data could not be understood, 2 not an output directory, 3 no numpy or matplotlib.
 """
 
@@ -25,11 +33,14 @@ import numpy as np
 
 from .command import write_whole
 from .errors import InputError
-from .drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, draw_base, draw_crest, draw_crest_bars, draw_energy,
-                      draw_face, draw_floor_spectra, draw_joint_history, draw_spectrum, energy_parts, imbalance, plt, stress_bar, worst_joints)
+from .drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, demand_bar, draw_base, draw_crest, draw_crest_bars, draw_demand,
+                      draw_energy, draw_face, draw_floor_spectra, draw_joint_history, draw_overstress, draw_spectrum, energy_parts, imbalance, plt,
+                      stress_bar, worst_joints)
+from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
 from .runs import Run, Skip
 
 N_WORST_JOINTS = 4
+AS_PDF = ("openings", "slips", "spectrum", "distribution", "ida", "demand", "overstress")  # figures for the reports of others: 0.1 s each
 
 
 def strength_of(run):
@@ -58,9 +69,50 @@ def envelopes(runs, save):
                     print(f"figures: skipped {figure_name.format(name)}: {reason}")
                     plt.close(figure)
                     continue
-                axes.set_title(f"{run.heading}\n{name.capitalize()} face: envelope of {kind}", pad=10)
+                median = f", median of {run.ensemble.n} motions" if run.ensemble else ""
+                axes.set_title(f"{run.heading}\n{name.capitalize()} face: envelope of {kind}{median}", pad=10)
                 stress_bar(figure, contours, axes, levels, kind.split()[1], fraction=0.05, pad=0.16, aspect=45)
                 save(run, figure, figure_name.format(name))
+
+
+def demands(runs, save):
+    """Demand-capacity ratios on the faces, and the durations above them."""
+    for run in runs:
+        if not run.static_strength > 0.:
+            raise Skip("no static tensile strength is given (Limits/Static tensile strength)")
+        for name in FACES:
+            figure, axes = plt.subplots(figsize=(10, 2.3 + 8.8 * aspect(run)))
+            demand_bar(figure, draw_demand(axes, run, name, run.static_strength), axes, fraction=0.05, pad=0.16, aspect=45)
+            axes.set_title(f"{run.heading}\n{name.capitalize()} face: demand-capacity ratio, static strength {1e-6 * run.static_strength:.3g} MPa", pad=10)
+            save(run, figure, f"demand_{name}")
+    for run in runs:
+        figure, axes = plt.subplots(figsize=(6, 4))
+        draw_overstress(axes, run)
+        axes.set_title(f"{run.heading}\nDuration of overstress at a point, away from the base", loc="left")
+        save(run, figure, "overstress")
+
+
+def motions(runs, save):
+    """Scatter of the joints over many motions, and incremental dynamic analyses."""
+    for run in runs:
+        words = f"{run.heading}, {run.ensemble.n} motions"
+        for quantity, name in (("opening", "openings"), ("slip", "slips")) if not run.tied else ():
+            figure, axes = plt.subplots(figsize=(8, 4))
+            draw_joint_band(axes, run, quantity)
+            axes.set_title(f"{words}\nLargest joint {quantity} at the crest")
+            save(run, figure, name)
+        measures = ["tension"] if run.tied else ["max_opening", "tension"]
+        for name, draw, title in (("distribution", draw_distribution, "Share of the motions up to a value"),
+                                  ("ida", draw_dynamic_analysis, "Incremental dynamic analysis")):
+            if run.ensemble.n < 2 or name == "ida" and len(run.ensemble.factors) < 2:
+                continue
+            figure, row = plt.subplots(1, len(measures), figsize=(5. * len(measures), 4), sharey=True, squeeze=False)
+            for axes, measure in zip(row[0], measures):
+                draw(axes, run, measure)
+            for axes in row[0, 1:]:
+                axes.set_ylabel("")
+            row[0, 0].set_title(f"{words}\n{title}", loc="left")
+            save(run, figure, name)
 
 
 def crest_maxima(runs, save):
@@ -148,7 +200,8 @@ def energy(runs, save):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("directories", nargs="+", metavar="DIR")
-    parser.add_argument("--format", default="png", choices=("png", "svg", "pdf"))
+    parser.add_argument("--format", choices=("png", "svg", "pdf"))
+    parser.add_argument("--limits", action="store_true")
     options = parser.parse_args()
     modes = Path(options.directories[0])
     if (modes / "modes.csv").exists() and not (modes / "summary.json").exists():
@@ -162,26 +215,29 @@ def main():
         return 2
 
     def save(run, figure, name):
-        folder, data = run.directory / "figures", BytesIO()
+        folder = run.directory / "figures"
         if folder.is_symlink():
             raise ValueError(f"{folder} is a link")
         folder.mkdir(exist_ok=True)
-        metadata = {"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(options.format)
-        figure.savefig(data, format=options.format, metadata=metadata)
-        write_whole(folder / f"{name}.{options.format}", data.getvalue())
+        for kind in [options.format] if options.format else ["png", "pdf"] if name.startswith(AS_PDF) else ["png"]:
+            data = BytesIO()
+            figure.savefig(data, format=kind, metadata={"svg": {"Date": None}, "pdf": {"CreationDate": None}}.get(kind))
+            write_whole(folder / f"{name}.{kind}", data.getvalue())
         plt.close(figure)
 
-    todo = [envelopes, history, spectrum, floor_spectra, energy]
-    if all(run.tied for run in runs):
-        print("figures: tied dam, no figures of joints")
+    single, many = [run for run in runs if not run.ensemble], [run for run in runs if run.ensemble]
+    todo = [(envelopes, runs), (spectrum, runs), (history, single), (floor_spectra, single), (energy, single), (motions, many)]
+    todo += [(demands, [run for run in single if run.moves])] if options.limits else []
+    if all(run.tied for run in single):
+        print("figures: tied dam, no figures of joints" if single else "figures: many motions, no figures over time")
     else:
-        todo += [crest_maxima, joint_history]
+        todo += [(crest_maxima, single), (joint_history, single)]
 
     def draw(makers):
         status = 0
-        for make in makers:
+        for make, shown in makers:
             try:
-                make(runs, save)
+                make(shown, save)
             except Skip as reason:
                 print(f"figures: skipped {make.__name__}: {reason}", flush=True)
             except (KeyError, ValueError, IndexError) as error:

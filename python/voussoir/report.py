@@ -17,19 +17,24 @@ from hashlib import sha256
 from html import escape
 from pathlib import Path
 
+from . import report_ensemble as ensemble
 from . import report_figures as figures
 from . import report_view3d as view3d
 from .chromium import find_browser, print_page
 from .command import Parser, write_whole
 from .errors import ComputationError, InputError
 from .prm import prm_text
-from .report_answers import accuracy_sentence, answers, mesh_quality, modes, modes_of
+from .report_answers import accuracy_sentence, answers, compared, mesh_quality, modes, modes_of, notes
 from .report_needs import needs_of
-from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, tiles, verdict, wedges, wedges_of
+from .report_scene import analysed, factor_of_first
+from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, verdict, wedges, wedges_of
 from .runs import NotComputed, Run, Skip, name_apart, refuse_links
 
 
 STUDY = ("title", "owner", "author", "date")  # options with the texts of the title page
+
+
+MARKED = "Marked: the extreme value away from the base."
 
 
 class Page:
@@ -96,6 +101,11 @@ def moving_of(page, runs, what):
     return [run for run in runs if run.moves]
 
 
+def single(runs):
+    """Runs of one motion, which have tables over time."""
+    return [run for run in runs if not run.ensemble]
+
+
 # ---------------------------------------------------------------- sections
 
 def head(page, runs, study):
@@ -106,9 +116,9 @@ def head(page, runs, study):
         title = ""
     title = study.get("title") or f"Earthquake analysis of {f'the arch dam “{title}”' if title else f'an arch dam: {len(runs)} runs'}"
     page.title = study.get("title") or ", ".join(run.heading for run in runs)
-    page.add(f"<header><h1>{escape(title)}</h1>")
+    page.add(f'<div class="first"><header><h1>{escape(title)}</h1>')
     rows = [("Owner", study.get("owner")), ("Author", study.get("author")), ("Date", study.get("date") or date_of(datetime.now())),
-            ("Runs" if several else "Model", ", ".join(r.name for r in runs) if several else run.facts.get("Joints", run.law)),
+            ("Runs", ", ".join(r.name for r in runs) if several else ""),
             ("Computed", f"{date_of(datetime.fromtimestamp((run.directory / 'summary.json').stat().st_mtime))} with Voussoir {run.summary.get('version', '')}")]
     page.add("<dl>" + "".join(f"<dt>{name}</dt><dd>{escape(text)}</dd>" for name, text in rows if text) + "</dl></header>")
 
@@ -117,32 +127,76 @@ def date_of(day):
     return day.strftime("%-d %B %Y")
 
 
+def what_was_analysed(page, runs):
+    """Dam, joints, water, foundation and motion in words, the dam as a picture, and the spectrum of the motion."""
+    page.section("What was analysed")
+    found = [dict(analysed(run)) for run in runs]
+    titles = list(dict.fromkeys(title for rows in found for title in rows))
+    same = [title for title in titles if len({rows.get(title) for rows in found}) == 1]
+    page.add('<dl class="analysed">' + "".join(f"<dt>{title}</dt><dd>{escape(found[0][title])}</dd>" for title in same) + "</dl>")
+    if apart := [title for title in titles if title not in same]:
+        page.add(table(["run", *apart], [((run.name, *(rows.get(title, "–") for title in apart)), False) for run, rows in zip(runs, found)]))
+    pictured = {str([run.summary.get("mesh", {}).get(key) for key in ("cells", "volume", "crest_length")]): run for run in reversed(runs)}
+    shown = [run for run in runs if run in pictured.values()]
+    panels = [(named(shown, run), f"mesh of {run.name}", lambda run=run: figures.dam(run)) for run in shown]
+    caption = "The dam, seen from downstream, the right bank at the left; heavy lines are joints."
+    moving = [run for run in runs if run.moves]
+    if moving and (moving[0].directory / "spectrum.csv").exists():
+        panels += [(named(shown, moving[0]), f"spectrum of {moving[0].name}", lambda: figures.motion_spectrum(moving[0]))]
+        has_target = page.made("target spectrum", lambda: any(name.startswith("target") for name in moving[0].table("spectrum.csv")))
+        caption += (f" Response spectra of the {'first ' if moving[0].ensemble else ''}ground motion{factor_of_first(moving[0])}"
+                    f"{'; dashed: the target' if has_target else ''}.")
+    page.row(caption, panels)
+
+
 def summary(page, runs):
-    page.section("Summary")
-    for run in runs:
-        page.add(f'<div class="verdict {verdict(run)[0]}">{f"<h3>{escape(run.name)}</h3>" if len(runs) > 1 else ""}{answers(run)}</div>')
-    if len(runs) == 1:
-        page.add(tiles(runs[0]))
-    for run in runs:
+    page.section("Answers")
+    if len(runs) > 1:
+        page.add(compared(runs) + notes(runs))
+    else:
+        run = runs[0]
+        state, text = (ensemble.state(run), answers(run, ensemble.asked(run))) if run.ensemble else (verdict(run)[0], answers(run))
+        page.add(f'<div class="verdict {state}">{text}</div>')
+    warnings(page, runs)
+
+
+def warnings(page, runs):
+    """Warnings of the program about the physics, and remarks on the input file."""
+    page.add("<h3>Warnings</h3>")
+    found = [(run, warning) for run in runs for warning in run.warnings]
+    rows = "".join(f'<li{"" if warning["class"] == "input" else " class=warning"}>{escape(named(runs, run))}{": " if len(runs) > 1 else ""}'
+                   f'{escape(str(warning["text"]))}</li>' for run, warning in found)
+    page.add(f"<ul>{rows}</ul>" if found else "<p>None.</p>")
+
+
+def open_dam(page, runs):
+    for run in single(runs):
         if run.moves and not run.tied:
             page.whole(lambda words, run=run: f"The dam {'of ' + escape(run.name) + ' ' if len(runs) > 1 else ''}at its widest opening, seen from downstream: "
                        f"{escape(words)}.", f"open dam of {run.name}", lambda run=run: figures.open_dam(run))
 
 
 def results(page, runs):
+    page.add("</div>")
     page.section("Results")
-    page.add(extremes(runs))
-    page.add('<p class="sub">Opening and slip are counted from the grouted state, with the dam under its own weight. Tension is '
-             'positive. Places are x (downstream), y (to the left bank), z (up) in metres.</p>')
+    one_ensemble = len(runs) == 1 and runs[0].ensemble
+    page.add(ensemble.extremes(runs[0]) if one_ensemble else extremes(runs))
+    page.add('<p class="sub">Opening and slip are counted from the grouted state, with the dam under its own weight. Tension is positive. '
+             + ('Known within: half width of the interval of the median that the scatter of the motions allows.' if one_ensemble else
+                'Joints and monoliths are numbered as in the figures.') + "</p>")
+    for run in runs:
+        if run.ensemble:
+            page.add(f"<h3>Motions{' of ' + escape(run.name) if len(runs) > 1 else ''}</h3>{ensemble.motions(run)}")
     error_bars(page, runs)
     if any("value_with_base" in limit for run in runs for limit in run.summary.get("limits", {}).values()):
         page.add('<p class="sub">Limits of stresses are compared with the values away from the base: farther from it than a tenth of the '
                  'dam’s height. Closer to the base the stress of an elastic dam grows with refinement of the mesh.</p>')
+    open_dam(page, runs)
 
 
 def error_bars(page, runs):
     """What the error bars are, or why a run has none."""
-    for run in runs:
+    for run in single(runs):
         bars, reason = run.error_bars
         of = f"{escape(run.name)}: " if len(runs) > 1 else ""
         if bars:
@@ -153,12 +207,14 @@ def error_bars(page, runs):
             page.add(f'<p class="sub">{of}{escape(reason)}</p>')
 
 
+def moving_dam(page, runs):
+    view3d.section(page, single(runs))
+
+
 def dam_and_scene(page, runs):
     page.section("Dam and scene")
     pictured = {str(run.summary.get("mesh", {})): run for run in reversed(runs)}
     shown = [run for run in runs if run in pictured.values()]
-    page.row("The mesh, seen from downstream, the right bank at the left; heavy lines are contraction joints.",
-             [(named(shown, run), f"mesh of {run.name}", lambda run=run: figures.dam(run)) for run in shown])
     page.add(facts(runs))
     for run in shown:
         if (rows := page.made(f"quality of the mesh of {run.name}", lambda run=run: mesh_quality(run))) is not None:
@@ -183,8 +239,8 @@ def natural_modes(page, runs):
 
 def motion(page, runs):
     page.section("Ground motion")
-    seen = {}
-    for run in runs:
+    seen = {run.name: run for run in runs if run.ensemble}
+    for run in single(runs):
         if not run.moves:
             continue
         try:
@@ -194,7 +250,7 @@ def motion(page, runs):
     moving = list(seen.values())
     if not any(run.moves for run in runs):
         page.add("<p>None: the static state alone.</p>")
-    for run in moving:
+    for run in single(moving):
         title = f" of {escape(run.name)}" if len(moving) > 1 else ""
         page.wide(f"Acceleration of the base{title}.", f"acceleration of the base of {run.name}", lambda run=run: figures.accelerations(run))
     for run in moving:
@@ -202,8 +258,8 @@ def motion(page, runs):
         images = page.made("spectra", lambda run=run: figures.spectra(run, top)) if top else None
         if images:
             damping = 100. * run.table("spectrum.csv")["damping"][0]
-            page.row(f"Response spectra of the motion{' of ' + escape(run.name) if len(moving) > 1 else ''}, damping {damping:g} %"
-                     f"{target_words(page, run)}.",
+            of = f" of {escape(run.name)}" if len(moving) > 1 else ""
+            page.row(f"Response spectra of the {'first ' if run.ensemble else ''}motion{of}, damping {damping:g} %{target_words(page, run)}.",
                      [("", f"response spectrum, {figures.DIRECTIONS[d]}", lambda source=source: source) for d, source in images.items()])
 
 
@@ -215,6 +271,8 @@ def target_words(page, run):
 
 def response(page, runs):
     page.section("Response")
+    scatter(page, [run for run in runs if run.ensemble], len(runs) > 1)
+    runs = single(runs)
     moving = moving_of(page, runs, "its response over time")
     if moving:
         page.wide("Displacement of the crest at the crown against the base, downstream positive. It begins with the static state.",
@@ -243,25 +301,48 @@ def response(page, runs):
                   for run in moving for q in ("opening", "slip") if highest[q] is not None])
 
 
+def scatter(page, runs, several):
+    """Openings and slips along the crest over many motions, their distributions, and incremental dynamic analyses."""
+    for run in runs:
+        of = f" of {escape(run.name)}" if several else ""
+        if not run.tied:
+            page.row(f"Largest openings and slips along the crest{of}: median, 16 to 84 %, and each motion.",
+                     [("", f"{quantity}s of {run.name}", lambda run=run, q=quantity: figures.joint_band(run, q)) for quantity in ("opening", "slip")])
+        measures = (["max_opening"] if not run.tied else []) + ["tension"]
+        page.row(f"Share of the motions{of} up to a value.",
+                 [("", f"distribution of {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.distribution(run, m))
+                  for measure in measures if run.ensemble.n > 1])
+        if len(run.ensemble.factors) > 1:
+            page.row(f"Incremental dynamic analysis{of}: factor of the motions, and largest value.",
+                     [("", f"dynamic analysis, {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.dynamic_analysis(run, m))
+                      for measure in measures])
+
+
 def stresses(page, runs):
     strength = any(run.limit("Tensile strength") > 0. for run in runs)
     page.section("Stresses")
     for column, kind in (("max_principal", "Largest principal stress"), ("min_principal", "Smallest principal stress")):
         heavy = "; the heavy line is the tensile strength" if strength and column == "max_principal" else ""
-        page.row(f"{kind} of every point over time, self-weight included, on the developed faces{heavy}.",
+        median = f"; {'of many motions ' if len(runs) > 1 else ''}the median over the motions" if any(run.ensemble for run in runs) else ""
+        page.row(f"{kind} of every point over time{median}, self-weight included, on the developed faces{heavy}. {MARKED}",
                  [(named(runs, run, f"{name} face"), f"{kind.lower()}, {name} face of {run.name}",
                    lambda run=run, name=name, column=column: figures.face(run, name, column, runs))
                   for run in runs for name in ("upstream", "downstream")])
     directed = page.made("arch and cantilever stresses", lambda: figures.directed(runs)) or []
     for column, kind in (("arch_stress_max", "arch"), ("cantilever_stress_max", "cantilever")):
-        page.row(f"Largest {kind} stress of every point over time, on the developed faces.",
+        page.row(f"Largest {kind} stress of every point over time, on the developed faces. {MARKED}",
                  [(named(runs, run, f"{name} face"), f"{kind} stress, {name} face of {run.name}",
                    lambda run=run, name=name, column=column: figures.directed_face(run, name, column, directed))
                   for run in directed for name in ("upstream", "downstream")])
-    if strength:
-        page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the static tensile strength "
-                 "(USACE EM 1110-2-6053).",
-                 [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run)) for run in runs if run.moves])
+    strong = [run for run in runs if run.static_strength > 0. and (run.directory / "faces.csv").exists()]
+    page.row("Demand-capacity ratio of every point: largest principal stress over the static tensile strength; heavy lines: 1 and 2 (USACE EM 1110-2-6053). "
+             + MARKED,
+             [(named(runs, run, f"{name} face"), f"demand-capacity ratio, {name} face of {run.name}", lambda run=run, name=name: figures.demand(run, name))
+              for run in strong for name in ("upstream", "downstream")])
+    page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the static tensile strength "
+             "(USACE EM 1110-2-6053).",
+             [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run))
+              for run in single(strong) if run.moves])
 
 
 def bases(page, runs):
@@ -304,7 +385,7 @@ def needs(page, runs):
 
 def checks(page, runs):
     page.section("Energy and checks")
-    moving = [run for run in runs if run.moves]
+    moving = [run for run in single(runs) if run.moves]
     page.row("Energies; on rock also what has left through the artificial boundary.",
              [(named(runs, run), f"energies of {run.name}", lambda run=run: figures.energies(run, moving)) for run in moving])
     rows = [("Energy balance, over the largest energy", lambda s: number(s["energy_balance_error"], "")),
@@ -321,15 +402,11 @@ def checks(page, runs):
                 cells.append("")
         if any(cells):
             body.append(("", [title, *map(escape, cells)]))
-    page.add(html_table([("check", ""), *((escape(run.name), "n") for run in runs)], body))
+    if body:
+        page.add(html_table([("check", ""), *((escape(run.name), "n") for run in runs)], body))
     for run in runs:
         if sentence := page.made(f"error of mesh and time step of {run.name}", lambda run=run: accuracy_sentence(run)):
             page.add(f"<p>{f'<b>{escape(run.name)}.</b> ' if len(runs) > 1 else ''}{sentence}</p>")
-    page.add("<h3>Warnings</h3>")
-    found = [(run, warning) for run in runs for warning in run.warnings]
-    rows = "".join(f'<li{"" if warning["class"] == "input" else " class=warning"}>{escape(named(runs, run))}{": " if len(runs) > 1 else ""}'
-                   f'{escape(str(warning["text"]))}</li>' for run, warning in found)
-    page.add(f"<ul>{rows}</ul>" if found else "<p>None.</p>")
 
 
 def repeat(page, runs, study):
@@ -361,7 +438,7 @@ def allowed(directive, texts):
 def page_of(runs, study):
     page = Page()
     head(page, runs, study)
-    for section in (summary, results, view3d.section, dam_and_scene, motion, response, stresses, bases, rock_wedges, needs, checks):
+    for section in (what_was_analysed, summary, results, moving_dam, dam_and_scene, motion, response, stresses, bases, rock_wedges, needs, checks):
         section(page, runs)
     repeat(page, runs, study)
     if page.missing:

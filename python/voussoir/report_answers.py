@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""The first page of a report in words: how far the joints open, whether they close again, stresses, limits, validity. And what other
-commands computed for the same scene: natural modes and the error of mesh and time step."""
+"""The first page of a report in words: how far the joints open, whether they close again, stresses, limits, validity, of one run or of
+several in one table. And what other commands computed for the same scene: natural modes and the error of mesh and time step."""
 
 import re
 from html import escape
@@ -8,9 +8,11 @@ from html import escape
 import numpy as np
 
 from . import error_bars, tables
+from .ensembles import SCATTER
 from .errors import InputError
 from .picture import read_solution
-from .report_tables import MINUS, bar_words, html_table, items, number, verdict, with_unit
+from .report_scene import entry, left_out
+from .report_tables import MINUS, bar_words, exceedances, html_table, items, limits_of, number, verdict, with_unit
 from .runs import NotComputed, Skip, refuse_links
 
 # Dynamic tensile strength of dam concrete if the scene gives none [Pa]: a tenth of the dynamic compressive strength (DL 5073-2000), which
@@ -21,16 +23,16 @@ CLOSED = 0.01  # of its largest opening: a joint below is closed
 
 def strength_of(run):
     """Dynamic tensile strength [Pa], and where it is from."""
-    for entry in ("Limits/Tensile strength", "Output/Tensile strength"):
-        if (value := run.value(entry)) > 0.:
-            return value, entry
+    for name in ("Limits/Tensile strength", "Output/Tensile strength"):
+        if (value := run.value(name)) > 0.:
+            return value, name
     return USUAL_STRENGTH, ""
 
 
 def place_and_time(item):
     """Text of the place and the time of an extreme, or nothing."""
     place, time = item.where()
-    words = [f"at {place} m" if place else "", f"at {time} s" if time and item.time > 0. else ""]
+    words = [place, f"at {time} s" if time and item.time > 0. else ""]
     return f" ({', '.join(filter(None, words))})" if any(words) else ""
 
 
@@ -97,7 +99,7 @@ def stresses(run, found):
     if not largest:
         return "They were not recorded (Output/Envelope interval)."
     away = any(key.endswith("_away_from_base") for key in found)
-    text = "Tension at most " + ", ".join(f"<b>{value_of(item)}</b> {face}{place_and_time(item)}" for face, item in largest.items())
+    text = "Tension at most " + ", ".join(f"<b>{value_of(item)}</b> {face}{place_and_time(item).replace(f', {face}', '')}" for face, item in largest.items())
     for key in ("max_compression_away_from_base", "max_compression"):
         if key in found:
             text += f"; compression at most {value_of(found[key])}"
@@ -109,7 +111,7 @@ def stresses(run, found):
     if worst <= strength:
         return text + f"The tension is below {source}, {with_unit(strength, 'MPa')}."
     return text + (f'<b class="exceeded">The concrete would crack:</b> the tension is {worst / strength:.2g} times {source}, {with_unit(strength, "MPa")}'
-                   f"{'' if entry else ' (a tenth of the dynamic compressive strength, DL 5073-2000)'}.")
+                   f"{'' if entry else ' (DL 5073-2000)'}.")
 
 
 def cracks(run, found):
@@ -117,18 +119,38 @@ def cracks(run, found):
     return max((item.value for item in tensions(found).values()), default=0.) > strength_of(run)[0]
 
 
-def validity(run, found):
-    """Which numerical checks are satisfied, and what the model does not cover."""
+def beginning(text, most=100):
+    """First sentence of a warning; of a long one the part before its colon, or the first words."""
+    first = text.partition(". ")[0].rstrip(".")
+    if len(first) <= most:
+        return first
+    head = first[:most]
+    return head[:colon] if (colon := head.rfind(": ")) > 20 else head.rpartition(" ")[0] + " …"
+
+
+def failed_checks(run):
+    """Numerical checks and warnings about the physics: those that are not satisfied, and those that are."""
     bad, good, summary = [], [], run.summary
     for key, limit, name in (("energy_balance_error", 1e-4, "energy balance"),
                              ("contact_residual", max(1e-10, run.value("Contact/Tolerance")), "contact residual")):
         if isinstance(value := summary.get(key), (int, float)):
-            (good if value <= limit else bad).append(f"{name} {number(value, '')} (limit {number(limit, '')})")
-    warnings = [escape(str(warning["text"]).partition(". ")[0].rstrip(".")) for warning in run.warnings if warning["class"] != "input"]
-    (bad if warnings else good).append(f"warnings of the program: {len(warnings)} ({'; '.join(warnings)})" if warnings else "warnings of the program: none")
-    if others := len(run.warnings) - len(warnings):
-        good.append(f"remarks on the input file: {others}")
-    text = ("<b class=\"exceeded\">Not all checks are satisfied:</b> " if bad else "The computation passes its checks: ") + "; ".join(bad + good) + ". "
+            if value <= limit:
+                good.append(name)
+            else:
+                bad.append(f"{name} {number(value, '')} (limit {number(limit, '')})")
+    warnings = [escape(beginning(str(warning["text"]))) for warning in run.warnings if warning["class"] != "input"]
+    if warnings:
+        bad.append(f"warnings of the program: {len(warnings)} ({'; '.join(warnings)})")
+    return bad, good
+
+
+def validity(run, found):
+    """Which numerical checks are satisfied, and whether the concrete stays elastic."""
+    bad, good = failed_checks(run)
+    others = sum(warning["class"] == "input" for warning in run.warnings)
+    remarks = f"; remarks on the input file: {others}" if others else ""
+    text = (f'<b class="exceeded">Not all checks are satisfied:</b> {"; ".join(bad)}{remarks}. ' if bad else
+            f"The computation passes its checks{' (' + ', '.join(good) + ')' if good else ''}{remarks}. ")
     try:
         text += accuracy_sentence(run)
     except NotComputed:
@@ -143,15 +165,107 @@ def validity(run, found):
     return text
 
 
-def answers(run):
+def scatter(run):
+    """How much motions of one spectrum differ, and how to run sixteen: of a run with one motion."""
+    if not run.moves or run.ensemble:
+        return ""
+    how = ("<code class=entry>set Ensemble = 1-16</code> in subsection Motion runs sixteen" if entry(run, "Motion/Source") == "artificial" else
+           "<code class=entry>set Ensemble</code> in subsection Motion runs several records")
+    openings = "" if run.tied else f"openings by about ±{SCATTER['openings']} %, "
+    return (f"This is the answer for one motion; motions of one spectrum differ ({openings}tensions by about ±{SCATTER['tensions']} %): {how}.")
+
+
+def asked(run, found):
+    """Questions and answers, as HTML."""
+    return [("How far do the joints open?", " ".join(filter(None, (opening(found), "max_opening" in found and scatter(run))))),
+            *([("Do they close again?", closing(run, found))] if "max_opening" in found else []),
+            ("How large are the stresses?", " ".join(filter(None, (stresses(run, found), "max_opening" not in found and scatter(run))))),
+            ("Which limits are exceeded?", escape(verdict(run)[1])),
+            ("Are the results valid?", validity(run, found))]
+
+
+def answers(run, questions=None):
     """A list of questions and answers, as HTML."""
-    found = items(run)
-    questions = [("How far do the joints open?", opening(found)),
-                 *([("Do they close again?", closing(run, found))] if "max_opening" in found else []),
-                 ("How large are the stresses?", stresses(run, found)),
-                 ("Which limits are exceeded?", escape(verdict(run)[1])),
-                 ("Are the results valid?", validity(run, found))]
+    questions = [*(questions or asked(run, items(run))), ("What is left out?", escape(left_out(run)))]
     return '<dl class="answers">' + "".join(f"<dt>{question}</dt><dd>{text}</dd>" for question, text in questions) + "</dl>"
+
+
+# ---------------------------------------------------------------- several runs
+
+def with_spread(item):
+    """Value of an item, with its band over motions or its error bar."""
+    text = number(item.magnitude, item.unit)
+    if item.band:
+        return f'{text} <span class="unit band">({" to ".join(number(end, item.unit) for end in sorted(map(abs, item.band)))})</span>'
+    return f'{text} <span class="unit band">{bar_words(item)}</span>' if item.bar else text
+
+
+def closing_words(run, found):
+    """Whether the joints close again, in a word."""
+    if run.ensemble or "max_opening" not in found or not run.moves:
+        return ""
+    try:
+        opened = least_afterwards(run)
+    except Skip:
+        return ""
+    stay = sum(least > 0. for least in opened.values())
+    return (f"{stay} of {len(opened)} stay open", "undecided") if stay else "yes" if opened else "none opens"
+
+
+def limit_words(run):
+    """How many limits are exceeded or undecided, and the state."""
+    if run.ensemble and (rows := exceedances(run)):
+        worst = max(rows, key=lambda row: row[2])
+        return (f"exceeded in {worst[2]} of {worst[3]} motions", "exceeded") if worst[2] else ("satisfied", "satisfied")
+    state, _ = verdict(run)
+    if not limits_of(run):
+        return "none given"
+    return (state, state) if state else "not all evaluated"
+
+
+def compared(runs):
+    """One table over several runs: a row for each, a column for each answer."""
+    heads = [("run", ""), ("opening [mm]", "n"), ("slip [mm]", "n"), ("joints close again?", ""), ("tension upstream [MPa]", "n"),
+             ("tension downstream [MPa]", "n"), ("over the strength", "n"), ("limits", ""), ("checks", "")]
+    rows = []
+    for run in runs:
+        found = items(run)
+        cells = [escape(run.name)]
+        cells += [(with_spread(found[key]), found[key].state) if key in found else "–" for key in ("max_opening", "max_slip")]
+        cells.append(closing_words(run, found) or "–")
+        faces = tensions(found)
+        cells += [(with_spread(faces[face]), faces[face].state) if face in faces else "–" for face in ("upstream", "downstream")]
+        ratio = max((item.value for item in faces.values()), default=0.) / strength_of(run)[0]
+        cells.append((f"{ratio:.2g} ×", "exceeded" if ratio > 1. else "") if faces else "–")
+        bad, _ = failed_checks(run)
+        inputs = sum(warning["class"] == "input" for warning in run.warnings)
+        cells += [limit_words(run), ("see the warnings", "exceeded") if bad else f"{inputs} remark{'s' if inputs > 1 else ''}" if inputs else "satisfied"]
+        rows.append(("", cells))
+    return html_table(heads, rows)
+
+
+def notes(runs):
+    """What the table over several runs cannot hold: strength, limits, validity, scatter, and what is left out, as HTML paragraphs."""
+    sentences = []
+    strengths = dict.fromkeys((with_unit(strength_of(run)[0], "MPa"), strength_of(run)[1]) for run in runs)
+    which = "; ".join(f"{value} ({name or 'a usual dynamic tensile strength, DL 5073-2000'})" for value, name in strengths)
+    cracking = [escape(run.name) for run in runs if cracks(run, items(run))]
+    text = f"Tensions are away from the base; the strength is {escape(which)}."
+    if cracking:
+        all_of = "all runs" if len(cracking) == len(runs) else ", ".join(cracking)
+        text += (f' <b class="exceeded">The concrete would crack</b> in {all_of}: the linear monoliths are beyond their validity there, so results after the '
+                 "first crack are indications only.")
+    sentences.append(text)
+    sentences += [f"<b>{escape(run.name)}.</b> {escape(verdict(run)[1])}" for run in runs if limits_of(run) and verdict(run)[0] != "satisfied"]
+    if any(item.band for run in runs for item in items(run).values()):
+        sentences.append("Of many motions the table has the median, and in brackets 16 to 84 %.")
+    else:
+        sentences += [text.replace("This is the answer for one motion; motions", "Motions") for text in map(scatter, runs) if text][:1]
+    of_runs = {}
+    for run in runs:
+        of_runs.setdefault(left_out(run), []).append(run.name)
+    sentences += [(f"<b>{escape(', '.join(names))}.</b> " if len(of_runs) > 1 else "") + escape(text) for text, names in of_runs.items()]
+    return "".join(f"<p>{text}</p>" for text in sentences)
 
 
 # ---------------------------------------------------------------- other commands

@@ -9,9 +9,10 @@ import numpy as np
 
 from . import picture
 from .errors import InputError
-from .drawing import (DIRECTIONS, DOWNSTREAM, LIMIT, UPSTREAM, aspect, common_levels, common_top, draw_base,
-                      draw_crest, draw_crest_bars, draw_energy, draw_face, draw_joint_history, draw_spectrum, energy_parts, energy_unit,
-                      plt, stress_bar, worst_joints)
+from .drawing import (DIRECTIONS, LIMIT, aspect, common_levels, common_top, demand_bar, draw_base, draw_crest, draw_crest_bars, draw_demand,
+                      draw_energy, draw_face, draw_joint_history, draw_motion_spectrum, draw_overstress, draw_spectrum, energy_parts, energy_unit, plt,
+                      show_periods, stress_bar, worst_joints)
+from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
 from .mode_shapes import draw_shape
 from .palette import line
 from .runs import NotComputed, Skip
@@ -129,6 +130,13 @@ def spectra(run, top):
     return images
 
 
+def motion_spectrum(run):
+    @panel(2.3)
+    def made(_, axes):
+        draw_motion_spectrum(axes[0], run.table("spectrum.csv"))
+    return made
+
+
 def deviation(table):
     """Smallest and largest ratio of the motion's spectra to their targets between 0.1 and 2 s, or None."""
     near = (table["period"] >= 0.1) & (table["period"] <= 2.)
@@ -165,7 +173,8 @@ def point_accelerations(run):
         for axes, direction in zip(rows, directions):
             for number, point in enumerate(points):
                 if (column := run.history.get(f"{point}_acceleration_{direction}")) is not None:
-                    axes.plot(run.history["time"], column, **line(number), linewidth=0.8, label=f"{point}: {np.abs(column).max():.2f} m/s²")
+                    axes.plot(run.history["time"], column, **line(number), linewidth=0.8,
+                              label=f"{point.replace('_', ' ')}: {np.abs(column).max():.2f} m/s²")
             axes.set_ylabel(f"{DIRECTIONS[direction]}\n[m/s²]")
             axes.margins(x=0)
             axes.legend(loc="upper right", ncol=2)
@@ -185,6 +194,8 @@ def floor_spectra(run):
         for number, name in enumerate(columns):
             rows[0].loglog(table[over], table[name], **line(number), label=name.replace("_", " "))
         rows[0].set(xlabel=f"{over} [{'s' if over == 'period' else 'Hz'}]", ylabel="pseudo-acceleration [m/s²]")
+        if over == "period":
+            show_periods(rows[0], table[over])
         rows[0].legend(loc="lower left", ncol=2)
     return both_widths(draw, 3., 1)
 
@@ -272,24 +283,40 @@ def directed_face(run, name, column, runs):
     return made
 
 
-def overstress(run):
-    """Cumulative duration of overstress over the demand-capacity ratio, against what is allowed."""
-    found = run.summary.get("overstress")
-    if not found:
-        raise Skip("no tensile strength is given (Limits/Static tensile strength)")
-    allowed = run.limit("Overstress duration")
+def demand(run, name):
+    @panel(1.15 + 0.98 * NARROW * aspect(run), "png")
+    def made(figure, axes):
+        demand_bar(figure, draw_demand(axes[0], run, name, run.static_strength), axes[0], aspect=42, fraction=0.06, pad=0.02)
+    return made
 
+
+def overstress(run):
     @panel(2.5)
     def made(_, axes):
-        axes = axes[0]
-        for name, colour in (("upstream", UPSTREAM), ("downstream", DOWNSTREAM)):
-            duration = found[name].get("duration_away_from_base", found[name]["duration"])  # the latter of earlier versions
-            axes.plot(found["levels"], duration, color=colour, marker="o", markersize=3, label=name)
-        if allowed > 0.:
-            axes.plot([1., 2.], [allowed, 0.], **LIMIT, label="allowed")
-        axes.set(xlabel="principal stress over static tensile strength [-]", ylabel="cumulative duration [s]", xlim=(0.98, 2.02))
-        axes.set_ylim(bottom=0.)
-        axes.legend(loc="upper right")
+        draw_overstress(axes[0], run)
+    return made
+
+
+# ---------------------------------------------------------------- many motions
+
+def joint_band(run, quantity):
+    @panel(2.7)
+    def made(_, axes):
+        draw_joint_band(axes[0], run, quantity)
+    return made
+
+
+def distribution(run, measure):
+    @panel(2.5)
+    def made(_, axes):
+        draw_distribution(axes[0], run, measure)
+    return made
+
+
+def dynamic_analysis(run, measure):
+    @panel(2.9)
+    def made(_, axes):
+        draw_dynamic_analysis(axes[0], run, measure)
     return made
 
 

@@ -4,6 +4,7 @@
 import re
 from html import escape
 
+from .report_places import MINUS, places_of
 from .runs import Skip
 from .units import decimal, readable, superscript, typeset
 
@@ -17,9 +18,11 @@ EXTREMES = {
     "max_compression_away_from_base": ("Compression, away from the base", "MPa"),
     "max_tension_upstream": ("Tension upstream, with the base", "MPa"),
     "max_tension_downstream": ("Tension downstream, with the base", "MPa"),
-    "max_compression": ("Compression, with the base", "MPa")}
+    "max_compression": ("Compression, with the base", "MPa"),
+    **{f"{name}_stress_{end}_{face}_{AWAY}": (f"{name.capitalize()} stress {face}, {word}, away from the base", "MPa")
+       for name in ("arch", "cantilever", "vertical") for end, word in (("max", "largest"), ("min", "smallest")) for face in ("upstream", "downstream")},
+    "overstress_seconds": ("Duration of overstress at a point, away from the base", "s")}
 SCALES = {"mm": 1e3, "MPa": 1e-6, "%": 100., "s": 1., "": 1., "MN": 1e-6, "kN": 1e-3}
-MINUS = "\N{MINUS SIGN}"
 
 
 def number(value, unit, digits=3):
@@ -41,7 +44,6 @@ def with_unit(value, unit):
     return decimal(float(f"{value * SCALES[unit]:.4g}")) + (f" {unit}" if unit else "")
 
 
-LIMIT_WORDS = {"exceeded": "exceeds the limit", "undecided": "undecided, limit"}
 WORDS = {"demand_capacity": "demand-capacity ratio", "overstressed_share": "share of a face above the static tensile strength",
          "overstress_duration": "duration of overstress", "sliding_safety": "least safety against sliding on the base",
          "key_shear_stress": "shear stress of the keys", "wedge_safety": "least sliding safety of a rock wedge"}
@@ -93,8 +95,10 @@ class Item:
     def __init__(self, title, unit, found, limit=None):
         self.title, self.unit, self.limit = title, unit, limit
         self.bar = None  # least and largest value by `voussoir accuracy`
+        self.band = None  # 16 and 84 % of many motions; the value is then their median
         found = found if isinstance(found, dict) else {"value": found}
         self.value, self.place, self.time = found["value"], found.get("place"), found.get("time")
+        self.words = found.get("words", "")  # of the place
 
     @property
     def magnitude(self):
@@ -105,9 +109,8 @@ class Item:
         return "" if self.limit is None else state_of(self.limit, self.bar)
 
     def where(self):
-        """Place and time in words."""
-        place = f"({', '.join(f'{x + 0.:.0f}'.replace('-0', '0').replace('-', MINUS) for x in self.place)})" if self.place else ""
-        return place, f"{self.time:.2f}" if self.time is not None else ""
+        """Place and time in words, as HTML."""
+        return escape(self.words), f"{self.time:.2f}" if self.time is not None else ""
 
 
 def html_table(heads, rows):
@@ -137,6 +140,8 @@ def unit_of(name):
 
 def items(run):
     """Results of a run in sequence: {key: Item}."""
+    if run.ensemble:
+        return items_of_ensemble(run)
     limits, found = limits_of(run), {}
     extremes_of_run = run.summary.get("extremes", {})
     for key in sorted(extremes_of_run, key=lambda key: list(EXTREMES).index(key) if key in EXTREMES else len(EXTREMES)):
@@ -155,11 +160,11 @@ def items(run):
                 found[f"{key}_{name}"] = Item(f"{name.capitalize()} {of}", "mm", run.summary[key][f"max_{name}"],
                                               limits.get(f"{key}_{name}"))
     found.update(demands(run, limits))
-    if safeties := [block["min_sliding_safety"] | {"place": block["centroid"]} for block in blocks_of(run).values()
+    if safeties := [block["min_sliding_safety"] | {"place": block["centroid"], "words": name} for name, block in blocks_of(run).items()
                     if is_number(block.get("min_sliding_safety", {}).get("value"))]:
         found["sliding_safety"] = Item("Least safety of a monolith against sliding on its base", "",
                                        min(safeties, key=lambda safety: safety["value"]), limits.get("sliding_safety"))
-    if safeties := [wedge["min_safety"] | {"place": wedge["base_centroid"]} for wedge in wedges_of(run).values()
+    if safeties := [wedge["min_safety"] | {"place": wedge["base_centroid"], "words": name} for name, wedge in wedges_of(run).items()
                     if is_number(wedge["min_safety"]["value"])]:
         found["wedge_safety"] = Item("Least sliding safety of a rock wedge", "", min(safeties, key=lambda one: one["value"]), limits.get("wedge_safety"))
     if "max_shear_stress" in (keys := run.summary.get("keys", {})):
@@ -172,6 +177,22 @@ def items(run):
     except (Skip, KeyError):
         pass
     add_bars(run, found)
+    places = places_of(run)
+    for key, item in found.items():
+        item.words = item.words or places.words(key, item.place, item.value)
+    return found
+
+
+def items_of_ensemble(run):
+    """Medians of the extremes over the motions, each with its band."""
+    found, extremes_of_run = {}, run.ensemble.extremes
+    for key in sorted(extremes_of_run, key=lambda key: list(EXTREMES).index(key) if key in EXTREMES else len(EXTREMES)):
+        if run.tied and key in ("max_opening", "max_slip"):
+            continue
+        title, unit = EXTREMES.get(key, (key.removeprefix("max_").replace("_", " ").capitalize(), unit_of(key)))
+        found[key] = Item(title, unit, extremes_of_run[key]["median"])
+        if is_number(extremes_of_run[key].get("p16")) and is_number(extremes_of_run[key].get("p84")):
+            found[key].band = extremes_of_run[key]["p16"], extremes_of_run[key]["p84"]
     return found
 
 
@@ -287,21 +308,33 @@ def verdict(run):
     return "exceeded" if texts["exceeded"] else "undecided", " ".join(sentences) + rest
 
 
-def tiles(run):
-    """The numbers that are looked for first."""
-    found, cells = items(run), []
-    # At the base the stress is singular; it comes first only where it is compared with a limit, as in earlier versions.
-    stresses = [key if key in found and found[key].limit or f"{key}_{AWAY}" not in found else f"{key}_{AWAY}"
-                for key in ("max_tension_upstream", "max_tension_downstream", "max_compression")]
-    for key in ("max_opening", "max_slip", *stresses, "demand_capacity"):
-        if key in found:
-            item = found[key]
-            limit = (f'<span class="limit">{LIMIT_WORDS.get(item.state, "limit")} '
-                     f'{escape(with_unit(item.limit["limit"], item.unit))}</span>') if item.limit else ""
-            bar = f'<span class="limit">{bar_words(item)} {item.unit}</span>' if item.bar else ""
-            cells.append(f'<div class="tile {item.state}"><span class="what">{escape(item.title)}</span><span class="number">'
-                         f'{number(item.magnitude, item.unit)} <span class="unit">{item.unit}</span></span>{bar}{limit}</div>')
-    return f'<div class="tiles">{"".join(cells)}</div>' if cells else ""
+# Entry of section Limits -> the columns that it limits
+LIMITED = {"Opening": ("max_opening",), "Slip": ("max_slip",), "Tension": tuple(f"max_tension_{face}_{AWAY}" for face in ("upstream", "downstream")),
+           "Compression": (f"max_compression_{AWAY}",), "Demand-capacity ratio": tuple(f"max_tension_{face}_{AWAY}" for face in ("upstream", "downstream"))}
+
+
+def exceedances(run):
+    """Limits of the scene of many motions: [(name, limit in words, motions that exceed it, motions)]."""
+    counted = run.ensemble.found.get("motions_above_limit")
+    if isinstance(counted, dict) and counted:  # by the program, also of limits that ensemble.csv does not show
+        entries = {"opening": "Opening", "slip": "Slip", "tension_upstream": "Tension", "tension_downstream": "Tension", "compression": "Compression",
+                   "demand_capacity": "Demand-capacity ratio"}
+        bound = lambda name: with_unit(run.limit(entries[name]), unit_of(name)) if name in entries else ""
+        return [(WORDS.get(name, name.replace("_", " ")), bound(name), int(count), run.ensemble.n) for name, count in counted.items()]
+    rows = []
+    for name, columns in LIMITED.items():
+        if not (limit := run.limit(name)) > 0.:
+            continue
+        unit = "" if name.startswith("Demand") else "mm" if name in ("Opening", "Slip") else "MPa"
+        static = run.static_strength
+        if not unit and not static > 0.:
+            continue
+        found = [column for key in columns if len(column := run.ensemble.values(key))]
+        if not found or len({len(column) for column in found}) > 1:
+            continue
+        largest = [max(map(abs, values)) / (1. if unit else static) for values in zip(*found)]
+        rows.append((name, with_unit(limit, unit), sum(value > limit for value in largest), len(largest)))
+    return rows
 
 
 def extremes(runs):
@@ -316,8 +349,9 @@ def extremes(runs):
         cells = [f'{escape(title)} <span class="unit">{"[" + item.unit + "]" if item.unit else ""}</span>']
         for of_run in found:
             one = of_run.get(key)
-            if one and one.bar:
-                cells.append((f'{number(one.value, one.unit)} <span class="unit">{bar_words(one)}</span>', one.state))
+            if one and (one.bar or one.band):
+                spread = bar_words(one) if one.bar else f"({' to '.join(number(end, one.unit) for end in one.band)})"
+                cells.append((f'{number(one.value, one.unit)} <span class="unit">{spread}</span>', one.state))
                 continue
             cells.append((number(one.value, one.unit), one.state) if one else "–")
         if limited:
@@ -331,7 +365,7 @@ def extremes(runs):
         rows.append(("", cells))
     heads = [("quantity", ""), *((escape(name), "n") for name in (["largest"] if single else [run.name for run in runs]))]
     heads += ([("limit", "n")] if limited else []) + ([("", "")] if limited and single else [])
-    return html_table(heads + ([("place [m]", "n"), ("time [s]", "n")] if single else []), rows)
+    return html_table(heads + ([("place", ""), ("time [s]", "n")] if single else []), rows)
 
 
 def table(head, rows):

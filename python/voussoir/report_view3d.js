@@ -5,7 +5,7 @@
 (() => {
   const TYPES = {f4: Float32Array, u4: Uint32Array, u2: Uint16Array, i2: Int16Array, u1: Uint8Array};
   const SPEEDS = [[1, "real time"], [0.5, "1/2"], [0.25, "1/4"], [0.1, "1/10"]];
-  const UPSTREAM = "#0b5394", DOWNSTREAM = "#cc4125", INK = "#1b1f24";
+  const UPSTREAM = "#0072b2", DOWNSTREAM = "#d55e00", INK = "#1b1f24";
   const CONCRETE = [0xde, 0xda, 0xd2];
   const STRESS = [[0x05, 0x30, 0x61], [0x43, 0x93, 0xc3], [0xd1, 0xe5, 0xf0], [0xf7, 0xf7, 0xf7], [0xfd, 0xdb, 0xc7], [0xd6, 0x60, 0x4d], [0x67, 0, 0x1f]];
   const PRESSURE = [[0x54, 0x30, 0x05], [0xbf, 0x81, 0x2d], [0xf6, 0xe8, 0xc3], [0xf5, 0xf5, 0xf5], [0xc7, 0xea, 0xe5], [0x35, 0x97, 0x8f], [0, 0x3c, 0x30]];
@@ -172,6 +172,15 @@
       Object.assign(this, {distance: distance, nearest: distance, zoom: 1, target: centre.clone()});
       this.keepInside();
       this.draw();
+    }
+
+    // Turns the camera about its target by these angles [rad], and changes its distance by a factor.
+    turn(azimuth, elevation, factor) {
+      const {camera, controls} = this, back = camera.position.clone().sub(controls.target), length = back.length();
+      const a = Math.atan2(back.y, back.x) + azimuth, e = Math.max(-1.5, Math.min(1.5, Math.asin(back.z / length) + elevation));
+      back.set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)).multiplyScalar(factor * length);
+      camera.position.copy(back).add(controls.target);
+      controls.update();
     }
 
     // Middle and half of the way of each coordinate of the nodes over time, magnified.
@@ -437,6 +446,7 @@
     magnify(factor) {
       this.model.factor = Number(factor.toPrecision(2));
       this.times.textContent = `\u00d7 ${this.model.factor}`;
+      this.factor.setAttribute("aria-valuetext", `times ${this.model.factor}`);
       this.model.keepInside();
       this.model.update();
       this.place();
@@ -459,12 +469,23 @@
         this.plots.push(crest);
       }
       const plots = this.plots.length ? " Plots: drag to zoom, double click for all, click to go to a time; shaded: the times of the view." : "";
-      element(this.live, "p", "view3d-help", `Turn: drag. Zoom: wheel or two fingers, after a click.${plots}`);
+      element(this.live, "p", "view3d-help", `Turn: drag, or arrow keys. Zoom: wheel or two fingers, after a click, or + and \u2212.${plots}`);
     }
 
     // A click without a drag chooses a joint.
     makePointer() {
       const {canvas, controls} = this.model;
+      const keys = {ArrowLeft: [-0.1, 0, 1], ArrowRight: [0.1, 0, 1], ArrowUp: [0, 0.1, 1], ArrowDown: [0, -0.1, 1], "+": [0, 0, 0.9], "-": [0, 0, 1 / 0.9]};
+      canvas.tabIndex = 0;
+      canvas.setAttribute("role", "img");
+      canvas.setAttribute("aria-label", "View of the dam. Arrow keys turn it, plus and minus zoom, Home resets the view.");
+      canvas.addEventListener("keydown", (event) => {
+        if (event.key === "Home") this.model.look();
+        else if (keys[event.key]) this.model.turn(...keys[event.key]);
+        else return;
+        event.preventDefault();
+        this.place();
+      });
       let down = null;
       const begin = (event) => { controls.enableZoom = true; down = [event.clientX, event.clientY]; };
       this.stage.addEventListener("pointerdown", begin, true);
@@ -521,6 +542,7 @@
       this.model.at = at;
       this.slider.value = Math.round(at);
       this.now.textContent = `${shown(time, 2)} s`;
+      this.slider.setAttribute("aria-valuetext", `${shown(time, 2)} s`);
       this.model.update();
       this.plots.forEach((plot) => plot.at(time));
       this.place();

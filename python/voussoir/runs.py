@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from . import tables
+from .ensembles import Ensemble
 from .error_bars import bars_of_run, scene_name
 from .errors import InputError
 from .prm import read_entries
@@ -93,9 +94,23 @@ class Run:
         return self.summary.get("steps", 1) != 0
 
     @cached_property
+    def ensemble(self):
+        """Results of many motions in this directory, or None."""
+        return Ensemble(self.directory, self.summary["ensemble"]) if self.summary.get("ensemble") else None
+
+    @cached_property
     def warnings(self):
-        """Warnings of the program: [{"class": "input" or "physics", "text", "place"}]. Texts of earlier versions count as physics."""
-        return [found if isinstance(found, dict) else {"class": "physics", "text": str(found), "place": ""} for found in self.summary.get("warnings", [])]
+        """Warnings of summary.json, and those that only the log has: [{"class": "input" or "physics", "text", "place"}]. Texts of earlier
+        versions count as physics."""
+        found = [one if isinstance(one, dict) else {"class": "physics", "text": str(one), "place": ""} for one in self.summary.get("warnings", [])]
+        known = {str(one["text"]) for one in found}
+        logged = re.findall("^warning: (.+)$", self.log_text, re.M)
+        return found + [{"class": "physics", "text": text, "place": ""} for text in dict.fromkeys(logged) if text not in known]
+
+    @cached_property
+    def log_text(self):
+        file = self.directory / "log.txt"
+        return file.read_text(errors="replace") if file.is_file() else ""
 
     def table(self, name, text_columns=()):
         return read_table(self.directory / name, text_columns)
@@ -196,12 +211,17 @@ class Run:
         """Entry "Limits/NAME" of the scene in its unit, 0 if there is none."""
         return self.value(f"Limits/{name}")
 
+    @property
+    def static_strength(self):
+        """Static tensile strength of the scene [Pa] as the program takes it, 0 if there is none."""
+        return self.limit("Static tensile strength") or 2. / 3. * self.limit("Tensile strength")
+
     @cached_property
     def facts(self):
         """Lines of the log before the first step: {title: text}."""
-        file, facts, title = self.directory / "log.txt", {}, None
-        for line in file.read_text(errors="replace").splitlines() if file.exists() else []:
-            if line.startswith(("   time", "Limits ", "Joints    largest", "Tension ")):  # results of a static state follow it at once
+        facts, title = {}, None
+        for line in self.log_text.splitlines():
+            if line.startswith(("   time", "Ensemble ", "Limits ", "Joints    largest", "Tension ")):  # results of a static state follow it at once
                 break
             if match := re.match(r"([A-Z]\w+) {1,9}(?=\S)(.*)", line):
                 title = match[1]
