@@ -49,8 +49,12 @@ namespace Voussoir
     if (Ranks::size() > 1)
       throw InputError(
           "\"Motion/Ensemble\" runs in one process. Use threads (OMP_NUM_THREADS), or remove the entry.");
-    prepare(motions_of(members));
-    log.line("Ensemble  %zu motions; the motion above is the first one, %s", members.size(), members[0].name.c_str());
+    const auto of_setup =
+        std::find_if(members.begin(), members.end(),
+                     [&](const EnsembleMember &member) { return member.factor == results.factor(); });
+    prepare(motions_of(members), of_setup - members.begin());
+    log.line("Ensemble  %zu motions; the motion above is the first one, %s", members.size(),
+             of_setup->name.c_str());
     if (options.validate)
       return;
     if (options.resume)

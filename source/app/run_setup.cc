@@ -29,7 +29,7 @@ namespace Voussoir
   {
   }
 
-  void RunSetup::prepare(const std::vector<MotionParameters> &motions)
+  void RunSetup::prepare(const std::vector<MotionParameters> &motions, const std::size_t of_setup)
   {
     check_ranks();
     if (options.resume && options.overwrite)
@@ -45,7 +45,7 @@ namespace Voussoir
     if (options.resume)
       state.start_step = checkpoint.open(log);
     make_motions(motions);
-    read_input();
+    read_input(all_motions[of_setup]);
     report_setup(state, options.validate && !options.json, log);
     if (options.validate)
       validate();
@@ -204,11 +204,11 @@ namespace Voussoir
   }
 
   /** Reads the files of the scene and creates the dam. Throws InputError for invalid input. */
-  void RunSetup::read_input()
+  void RunSetup::read_input(const GroundMotion &motion_of_setup)
   {
     GroundMotion &motion = state.motion;
     unsigned int &n_steps = state.n_steps;
-    motion = all_motions.front();
+    motion = motion_of_setup;
     n_steps = scene.moves_alone() || (scene.motion.source != "none" && scene.loads.factor("earthquake") != 0.)
                   ? motion.acceleration.size() - 1
                   : 0;

@@ -39,7 +39,8 @@ namespace Voussoir
       {
         static const std::regex figure(
             "envelope_((arch|cantilever|vertical)_)?(up|down)stream(_compression)?|"
-            "openings|slips|history|joint_history|spectrum|floor_spectra|energy");
+            "openings|slips|history|joint_history|spectrum|floor_spectra|energy|distribution|ida|"
+            "demand_(up|down)stream|overstress");
         const auto format = relative.extension();
         return (format == ".png" || format == ".svg" || format == ".pdf") &&
                std::regex_match(relative.stem().string(), figure);

@@ -27,8 +27,9 @@ namespace Voussoir
     RunSetup(const Scene &scene, const std::string &scene_text, const RunOptions &options);
 
     /** Reads all input, creates the dam and prints the setup. With --validate, ends the report. Throws InputError.
-     * @param motions ground motions of the runs; the first one determines the setup */
-    void prepare(const std::vector<MotionParameters> &motions);
+     * @param motions ground motions of the runs
+     * @param of_setup index of the motion that the report of the setup describes */
+    void prepare(const std::vector<MotionParameters> &motions, std::size_t of_setup = 0);
 
     /** Computes RunState::statics. Throws ComputationError, or Interrupted after a signal. */
     void find_static_state();
@@ -54,7 +55,7 @@ namespace Voussoir
     void         claim_directory();
     void         make_dam();
     void         make_motions(const std::vector<MotionParameters> &motions);
-    void         read_input();
+    void         read_input(const GroundMotion &motion_of_setup);
     void         validate();
     GroundMotion motion_of_run(const MotionParameters &parameters) const;
   };
