@@ -190,6 +190,30 @@ def records():
     agrees("three", 2, "'long.txt'", LIMIT)
 
 
+def kept():
+    """Files of others, write errors, limits on base forces, warnings of later motions, statistics of zeros, very short steps."""
+    Path("others/motion-1").mkdir(parents=True)
+    write("others/motion-1/notes.txt", "precious")
+    ensemble("others", "1-2", *settings("Motion/Duration=0.2"))
+    expect(Path("others/motion-1/notes.txt").exists() and not Path("others/motion-1/summary.json").exists(), "a file of others")
+    Path("full").mkdir()
+    Path("full/checkpoint.bin.new").mkdir()
+    result = voussoir("scene.prm", "--output", "full", "--overwrite", *settings("Motion/Ensemble=1-2", "Motion/Duration=0.2"), *EXPLICIT)
+    expect(result.returncode == 1 and "cannot be written" in result.stderr, f"status {result.returncode}: {result.stderr}")
+    ensemble("sliding", "1-2", *EXPLICIT, *settings("Motion/Duration=0.3", "Limits/Sliding safety=3", "Limits/Base friction=0.8"))
+    expect(summary("sliding")["ensemble"]["motions_above_limit"] == {"sliding_safety": 2}, "limits of base forces")
+    ensemble("zeros", "1-8", *EXPLICIT, *settings("Motion/Duration=0.5", "Limits/Static tensile strength=4e6", "Joints/Model=FJB"))
+    found = summary("zeros")["ensemble"]
+    expect(found["overstress_seconds"]["min"] == 0 and found["overstress_seconds"]["motions_for_10_percent"] is None, "zeros have no logarithm")
+    expect(found["max_slip"]["known_68"] is None, "slips of joints without slip are noise")
+    for name, size in (("weak", 1.), ("big", 30.)):
+        write(f"{name}.txt", "".join(f"{k * .01} {size * sin(.3 * k)} 0 0\n" for k in range(21)))
+    shown = runs("scene.prm", "--validate", *settings("Motion/Ensemble=weak.txt; big.txt", "Motion/Source=file", "Motion/Duration=-1"))
+    expect("'big.txt': " in shown and "peak acceleration" in shown, "warnings of all motions")
+    ensemble("short", "1", *EXPLICIT, *settings("Motion/Duration=0.2", "Dynamics/Explicit step=0.0001"))
+    expect("single precision" in Path("short/log.txt").read_text(), "very short steps run one by one")
+
+
 def entries():
     """What an ensemble refuses, before any work."""
     write("scene.prm", ARTIFICIAL)
@@ -211,10 +235,16 @@ def entries():
     shown = runs("motion", "scene.prm", "--output", "m.csv", *settings("Motion/Ensemble=3; 1-2", "Motion/Ensemble factors=2, 1"))
     runs("motion", "scene.prm", "--output", "n.csv", *settings("Motion/Seed=3", "Motion/Factor=2"))
     expect("the first one, seed 3" in shown and Path("m.csv").read_bytes() == Path("n.csv").read_bytes(), "the motion of an ensemble is the first")
+    refused(scene("Motion/Ensemble=1-4", "Motion/Ensemble output=1.5"), "no whole number")
+    write("many.prm", ARTIFICIAL + "subsection Motion\n  set Ensemble = 1-4\nend\n")
+    for command in ("accuracy", "needs"):
+        refused([command, "many.prm", "--output", "none"], "Motion/Ensemble", "one motion")
     expect(not Path("none").exists(), "nothing was written")
+    shown = runs("scene.prm", "--validate", *settings("Motion/Ensemble=4294967294-4294967295"))
+    expect("2 motions" in shown, "the last seeds")
     runs("scene.prm", "--validate", *settings("Motion/Ensemble=1-4"))
     expect(not Path("output").exists(), "--validate writes nothing")
 
 
 if __name__ == "__main__":
-    run_cases(lanes, laws, sequential, resumed, unstable, records, entries)
+    run_cases(lanes, laws, sequential, resumed, unstable, records, kept, entries)

@@ -339,7 +339,10 @@ def number(text, what, unit=""):
 
 
 def expect_one_record(scene, entries):
-    """Throws InputError for a scene with other motions of the banks, whose strongest part is not cut."""
+    """Throws InputError for a scene with several motions, or with other motions of the banks, whose strongest part is not cut."""
+    if entries["Motion/Ensemble"]:
+        raise InputError(f"the scene {scene} has Motion/Ensemble, but this command compares runs with one motion. Choose it: --set Motion/Ensemble= "
+                         "--set \"Motion/Ensemble factors=\" --set \"Motion/Ensemble output=\" and, for example, --set Motion/Seed=1.")
     if entries["Motion/Abutments"]:
         raise InputError(f"the scene {scene} has Motion/Abutments, but the strongest part of the motion is cut from one record. Use the same motion "
                          "at all base nodes: --set Motion/Abutments=")

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/batch_run.h>
 #include <voussoir/base/error.h>
+#include <voussoir/output/assessment.h>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,9 @@ namespace Voussoir
   {
     /** Number of time steps between two energy balances. */
     constexpr unsigned int steps_between_balances = 32;
+
+    /** Displacements lose digits when many small increments are added [s]. */
+    constexpr double shortest_step = 3e-4;
 
     /** Limit of the error of the energy balance in single precision, relative to the largest energy of a motion, or to this
      * part of the strain energy of the static state if that is larger [-]. */
@@ -31,6 +35,9 @@ namespace Voussoir
       return "the motion of the base is not the only load in time";
     if (scene.limits.sliding_safety > 0. || !scene.limits.wedges.empty())
       return "the limits include forces on the base";
+    if (run.motion.dt < shortest_step * scene.n_explicit)
+      return "single precision does not suffice for explicit steps below " +
+             number_text(1e3 * shortest_step) + " ms";
     return BatchModel::why_not(run.dam->structure, run.dam->layout.laws);
   }
 
@@ -140,7 +147,7 @@ namespace Voussoir
   {
     const Lane &lane = *lanes[motion];
     if (lane.failure.empty())
-      return result_of(lane.run, *lane.joints, *lane.stresses);
+      return result_of(*lane.joints, *lane.stresses, assess(lane.run, *lane.joints, *lane.stresses));
     MotionResult result;
     result.failure = lane.failure;
     return result;

@@ -9,6 +9,7 @@
 #include <ctime>
 #include <exception>
 #include <filesystem>
+#include <mutex>
 #include <omp.h>
 #include <sstream>
 
@@ -55,6 +56,9 @@ namespace Voussoir
     prepare(motions_of(members), of_setup - members.begin());
     log.line("Ensemble  %zu motions; the motion above is the first one, %s", members.size(),
              of_setup->name.c_str());
+    for (std::size_t k = 0; k < members.size(); ++k)
+      if (members[k].factor == of_setup->factor && &members[k] != &*of_setup)
+        report_motion_warnings(all_motions[k], scene, members[k].name + ": ", log);
     if (options.validate)
       return;
     if (options.resume)
@@ -142,8 +146,11 @@ namespace Voussoir
     }
     if (!is_done[number])
       add(number, std::move(result));
+    else if (!result.failure.empty())
+      log.line("warning: the tables of motion %zu end early: %s", number + 1,
+               first_sentence(result.failure).c_str());
     if (!keep_tables)
-      std::filesystem::remove_all(of_run.output);
+      RunDirectory::remove_results(of_run.output);
   }
 
   /** Adds the result of a motion, and prints a line. */
@@ -196,12 +203,12 @@ namespace Voussoir
                  batch.n_steps() * state.motion.dt);
       }
     }
-#pragma omp critical(ensemble_result)
-    {
-      for (std::size_t k = 0; k < numbers.size(); ++k)
-        add(numbers[k], batch.result(k));
-      save();
-    }
+    const std::lock_guard<std::mutex> lock(results_mutex);
+    for (const std::size_t number : numbers)
+      is_done[number] = true;
+    for (std::size_t k = 0; k < numbers.size(); ++k)
+      add(numbers[k], batch.result(k));
+    save();
   }
 
   void EnsembleRun::run_batches()
@@ -235,7 +242,7 @@ namespace Voussoir
       }
       catch (...)
       {
-#pragma omp critical(ensemble_result)
+        const std::lock_guard<std::mutex> lock(results_mutex);
         error = std::current_exception();
       }
     if (error)

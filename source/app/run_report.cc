@@ -94,9 +94,6 @@ namespace Voussoir
           log.line("          the last %.3f s of the motion do not reach the dam: the run ends at "
                    "\"Motion/Duration\"; with -1 the run is longer by the travel time of the waves",
                    delay);
-        if (const std::string warning = size_warning(report);
-            scene.motion.source != "none" && !warning.empty())
-          log.line("warning: %s", warning.c_str());
       }
       const ArchRockParameters *rock = scene.mesh.generated_rock();
       if (rock != nullptr && rock->enabled && !dam.foundation->uses_rock())
@@ -134,11 +131,8 @@ namespace Voussoir
     {
       for (const std::string &note : run.motion.notes)
         log.line("%s%s", note.rfind("warning: ", 0) == 0 ? "" : "Records   ", note.c_str());
-      MotionParameters any = run.scene().motion;
-      any.source = "none"; // without the errors of the spectrum
-      if (const std::string warning = end_warning(report_motion(run.motion, any));
-          run.n_steps > 0 && !warning.empty())
-        log.line("warning: %s", warning.c_str());
+      if (run.n_steps > 0)
+        report_motion_warnings(run.motion, run.scene(), "", log);
     }
 
     void report_joints(const Dam &dam, Log &log)
@@ -184,6 +178,18 @@ namespace Voussoir
         log.line("          first modes of the tied dam, and factor by the damping: %s", moved.str().c_str());
     }
   } // namespace
+
+  void report_motion_warnings(const GroundMotion &motion, const Scene &scene, const std::string &name,
+                              Log &log)
+  {
+    MotionParameters any = scene.motion;
+    any.source = "none"; // without the errors of the spectrum
+    const MotionReport report = report_motion(motion, any);
+    for (const std::string &warning :
+         {scene.motion.source == "none" ? std::string() : size_warning(report), end_warning(report)})
+      if (!warning.empty())
+        log.line("warning: %s%s", name.c_str(), warning.c_str());
+  }
 
   void report_setup(const RunState &run, const bool validate, Log &log)
   {

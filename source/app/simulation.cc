@@ -273,7 +273,7 @@ namespace Voussoir
 
   MotionResult Simulation::result() const
   {
-    return result_of(state, observers->joints, observers->stresses);
+    return result_of(observers->joints, observers->stresses, assessment_of(state, *observers));
   }
 
   void Simulation::write_tables()

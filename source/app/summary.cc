@@ -90,14 +90,14 @@ namespace Voussoir
           json.add(name, json_of(extreme));
       return json;
     }
-
-    Assessment assessment_of(const RunState &run, const RunObservers &observers)
-    {
-      return assess(
-          run, observers.joints, observers.stresses, observers.blocks ? &observers.blocks->blocks : nullptr,
-          observers.wedges ? std::optional<double>(observers.wedges->least_safety()) : std::nullopt);
-    }
   } // namespace
+
+  Assessment assessment_of(const RunState &run, const RunObservers &observers)
+  {
+    return assess(run, observers.joints, observers.stresses,
+                  observers.blocks ? &observers.blocks->blocks : nullptr,
+                  observers.wedges ? std::optional<double>(observers.wedges->least_safety()) : std::nullopt);
+  }
 
   namespace
   {

@@ -424,8 +424,8 @@ namespace Voussoir
         if (last.seed < first.seed || last.seed - first.seed >= most_members)
           throw InputError("Motion/Ensemble: the range '" + element + "' is empty or has more than " +
                            std::to_string(most_members) + " seeds. Write the smaller seed first.");
-        for (unsigned int seed = first.seed; seed <= last.seed; ++seed)
-          result.push_back(std::to_string(seed));
+        for (unsigned int k = 0; k <= last.seed - first.seed; ++k)
+          result.push_back(std::to_string(first.seed + k));
       }
       return result;
     }
@@ -531,7 +531,11 @@ namespace Voussoir
                        " motions, more than " + std::to_string(most_members) + ". Reduce their number.");
     if (!ensemble_output.empty())
       for (const double number : numbers_of(ensemble_output, "Ensemble output", 1., result.size()))
+      {
+        if (number != std::floor(number))
+          throw InputError("Motion/Ensemble output: " + number_text(number) + " is no whole number.");
         result[std::size_t(number) - 1].has_output = true;
+      }
     return result;
   }
 

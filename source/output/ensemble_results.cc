@@ -62,7 +62,8 @@ namespace Voussoir
     }
   } // namespace
 
-  MotionResult result_of(const RunState &run, const JointObserver &joints, const StressObserver &stresses)
+  MotionResult result_of(const JointObserver &joints, const StressObserver &stresses,
+                         const Assessment &assessment)
   {
     MotionResult result;
     for (const NamedExtremes &extremes : {joints.extremes(), stresses.extremes()})
@@ -74,17 +75,18 @@ namespace Voussoir
       result.openings.push_back(joint.opening());
       result.slips.push_back(std::max(joint.slip_upstream, joint.slip_downstream));
     }
-    const Assessment assessment = assess(run, joints, stresses);
+
     result.overstress = assessment.overstress_seconds().value_or(-1.);
     for (const Verdict &verdict : assessment.all())
       result.limits.emplace_back(verdict.name, verdict.satisfied());
+    result.unevaluated = assessment.not_evaluated();
     if (stresses.is_recording())
       for (FieldWriter::NodalField &field : stresses.fields())
         result.fields.emplace_back(field.name, std::move(field.values));
     return result;
   }
 
-  Spread::Spread(std::vector<double> values)
+  Spread::Spread(std::vector<double> values, const double noise)
   {
     std::sort(values.begin(), values.end());
     median = percentile(values, .5);
@@ -93,7 +95,7 @@ namespace Voussoir
     min = values.front();
     max = values.back();
     known_68 = known_95 = needed = unknown_value;
-    if (values.size() < 3)
+    if (values.size() < 3 || !(std::abs(median) > noise))
       return;
     const std::vector<double> medians = medians_of_samples(values);
     const auto                half_width = [&](const double share)
@@ -103,6 +105,8 @@ namespace Voussoir
     };
     known_68 = half_width(.68);
     known_95 = half_width(.95);
+    if (values.front() * values.back() <= 0.)
+      return;
     double sum = 0., squares = 0.;
     for (const double x : values)
       sum += std::log(std::abs(x)), squares += std::log(std::abs(x)) * std::log(std::abs(x));
@@ -117,6 +121,22 @@ namespace Voussoir
     json.add("median", median).add("p16", p16).add("p84", p84).add("min", min).add("max", max);
     return json.add("known_68", known_68).add("known_95", known_95).add("motions_for_10_percent", needed);
   }
+
+  namespace
+  {
+    bool is_length(const std::string &extreme)
+    {
+      return extreme == "max_opening" || extreme == "max_slip";
+    }
+
+    /** Returns the statistics of an extreme. @p k: its index. */
+    Spread spread_of(const std::vector<const MotionResult *> &motions, const std::size_t k)
+    {
+      constexpr double noise = 1e-6; // [m]
+      return Spread(values_of(motions, [&](const MotionResult &m) { return m.extremes[k].second; }),
+                    is_length(motions.front()->extremes[k].first) ? noise : 0.);
+    }
+  } // namespace
 
   double EnsembleResults::factor() const
   {
@@ -227,21 +247,25 @@ namespace Voussoir
   Json EnsembleResults::json_of_factor(const double factor) const
   {
     const auto of_factor = with_factor(factor);
-    Json       json;
-    json.add("n", of_factor.size()).add("factor", factor);
-    for (std::size_t k = 0; !of_factor.empty() && k < of_factor.front()->extremes.size(); ++k)
-      json.add(
-          of_factor.front()->extremes[k].first,
-          Spread(values_of(of_factor, [&](const MotionResult &m) { return m.extremes[k].second; })).json());
-    if (!of_factor.empty() && of_factor.front()->overstress >= 0.)
+    const auto n_all = std::count_if(motions.begin(), motions.end(),
+                                     [&](const MotionResult &motion) { return motion.factor == factor; });
+    Json       json, exceeded, unevaluated;
+    json.add("n", of_factor.size()).add("n_failed", n_all - of_factor.size()).add("factor", factor);
+    if (of_factor.empty())
+      return json.add("motions_above_limit", exceeded);
+    const MotionResult &first = *of_factor.front();
+    for (std::size_t k = 0; k < first.extremes.size(); ++k)
+      json.add(first.extremes[k].first, spread_of(of_factor, k).json());
+    if (first.overstress >= 0.)
       json.add("overstress_seconds",
                Spread(values_of(of_factor, [](const MotionResult &m) { return m.overstress; })).json());
-    Json exceeded;
-    for (std::size_t k = 0; !of_factor.empty() && k < of_factor.front()->limits.size(); ++k)
-      exceeded.add(of_factor.front()->limits[k].first,
+    for (std::size_t k = 0; k < first.limits.size(); ++k)
+      exceeded.add(first.limits[k].first,
                    std::count_if(of_factor.begin(), of_factor.end(),
                                  [&](const MotionResult *m) { return !m->limits[k].second; }));
-    return json.add("motions_above_limit", exceeded);
+    for (const auto &[name, reason] : first.unevaluated)
+      unevaluated.add(name, reason);
+    return json.add("motions_above_limit", exceeded).add("limits_not_evaluated", unevaluated);
   }
 
   Json EnsembleResults::json(const unsigned int lanes) const
@@ -272,12 +296,12 @@ namespace Voussoir
     for (std::size_t k = 0; k < of_factor.front()->extremes.size(); ++k)
     {
       const std::string &name = of_factor.front()->extremes[k].first;
-      const bool         is_length = name == "max_opening" || name == "max_slip";
-      if (!is_length && name != "max_tension_upstream_away_from_base" &&
+      const bool         is_in_m = is_length(name);
+      if (!is_in_m && name != "max_tension_upstream_away_from_base" &&
           name != "max_tension_downstream_away_from_base" && name != "max_compression_away_from_base")
         continue;
-      const Spread spread(values_of(of_factor, [&](const MotionResult &m) { return m.extremes[k].second; }));
-      const double unit = is_length ? 1e3 : 1e-6;
+      const Spread spread = spread_of(of_factor, k);
+      const double unit = is_in_m ? 1e3 : 1e-6;
       char         known[40] = "unknown";
       if (std::isfinite(spread.known_68))
         std::snprintf(known, sizeof(known), "%.1f %%", 100. * spread.known_68);
@@ -285,7 +309,7 @@ namespace Voussoir
       std::replace(words.begin(), words.end(), '_', ' ');
       log.line("          %s %.2f (%.2f to %.2f; %.2f to %.2f; %s) %s", words.c_str(), unit * spread.median,
                unit * spread.p16, unit * spread.p84, unit * spread.min, unit * spread.max, known,
-               is_length ? "mm" : "MPa");
+               is_in_m ? "mm" : "MPa");
     }
     for (const std::string &failure : failures())
       log.line("warning: no result of %s", failure.c_str());

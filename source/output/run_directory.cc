@@ -209,6 +209,16 @@ namespace Voussoir
     }
   }
 
+  void RunDirectory::remove_results(const std::string &path)
+  {
+    std::error_code ignored;
+    for (const fs::path &entry : entries_of(path))
+      if (is_result(entry))
+        fs::remove(path / entry, ignored);
+    for (const char *folder : {"figures", "contact/static", "contact/shaking", "contact", "."})
+      fs::remove((path / fs::path(folder)).lexically_normal(), ignored); // if it is empty
+  }
+
   void RunDirectory::expect_tables()
   {
     std::error_code error;

@@ -6,6 +6,7 @@
 #include <voussoir/app/run_setup.h>
 
 #include <functional>
+#include <mutex>
 
 namespace Voussoir
 {
@@ -43,6 +44,7 @@ namespace Voussoir
     EnsembleResults                   results;
     std::vector<char>                 is_done; ///< of each motion
     unsigned int                      lanes = 1;
+    std::mutex                        results_mutex; ///< of results and checkpoint
     Stopwatch                         loop_clock, report_clock;
     std::size_t                       n_before = 0; ///< motions that were complete at the start
   };

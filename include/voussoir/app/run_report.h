@@ -4,12 +4,20 @@
 
 #include <voussoir/app/run_counters.h>
 #include <voussoir/app/run_observers.h>
+#include <voussoir/output/assessment.h>
 
 namespace Voussoir
 {
   /** Prints mesh, materials, joints, foundation, loads, ground motion and warnings. @p validate: also prints
    * groups, unknowns, steps and memory. */
   void report_setup(const RunState &run, bool validate, Log &log);
+
+  /** Prints warnings about the size and the end of a motion. @p name: text before each warning */
+  void report_motion_warnings(const GroundMotion &motion, const Scene &scene, const std::string &name,
+                              Log &log);
+
+  /** Returns the assessment of the results so far. */
+  Assessment assessment_of(const RunState &run, const RunObservers &observers);
 
   /** Returns the model of a run as one object: the output of --validate --json. */
   Json json_of_setup(const RunState &run, const Log &log);

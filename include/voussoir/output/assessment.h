@@ -62,6 +62,9 @@ namespace Voussoir
     /** Returns the evaluated limits. */
     const std::vector<Verdict> &all() const { return verdicts; }
 
+    /** Returns the limits that are not evaluated, and the reasons. */
+    const std::vector<std::pair<std::string, std::string>> &not_evaluated() const { return unevaluated; }
+
     /** Returns the longest duration for which the stress at a node of a face away from the base exceeds the static
      * tensile strength [s]. Empty: there is no strength. */
     std::optional<double> overstress_seconds() const { return longest; }

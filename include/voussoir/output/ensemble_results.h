@@ -18,16 +18,18 @@ namespace Voussoir
     std::vector<double>       openings, slips; ///< largest of each joint at the crest [m]
     double                    overstress = 0.; ///< Assessment::overstress_seconds() [s]; -1: no strength
     Named<bool>               limits;          ///< whether each evaluated limit is satisfied
+    Named<std::string>        unevaluated;     ///< limits that are not evaluated, and the reasons
     Named<std::vector<float>> fields;          ///< envelopes of the stresses at the nodes of the model [Pa]
 
     template <class Archive> void serialize(Archive &archive, unsigned int)
     {
-      archive &name &factor &failure &extremes &openings &slips &overstress &limits &fields;
+      archive &name &factor &failure &extremes &openings &slips &overstress &limits &unevaluated &fields;
     }
   };
 
-  /** Returns the results of a completed run, without name and factor. */
-  MotionResult result_of(const RunState &run, const JointObserver &joints, const StressObserver &stresses);
+  /** Returns the results of a completed run, without name and factor. @p assessment: of the run. */
+  MotionResult result_of(const JointObserver &joints, const StressObserver &stresses,
+                         const Assessment &assessment);
 
   /** Statistics of a result over motions. */
   struct Spread
@@ -40,10 +42,12 @@ namespace Voussoir
 
     /** Number of motions for a half width of 10 % at 68 %: (1.2533 s / 0.1)^2 with the standard deviation s of the
      * logarithm, as for a log-normal distribution; NaN with fewer than three motions. */
-    double needed;
+    double needed; ///< also NaN if values have different signs or are zero
 
-    /** Computes the statistics. The percentiles are interpolated linearly. @p values: at least one. */
-    explicit Spread(std::vector<double> values);
+    /** Computes the statistics. The percentiles are interpolated linearly.
+     * @param values at least one
+     * @param noise medians below this value have no known_68, known_95 and needed */
+    explicit Spread(std::vector<double> values, double noise = 0.);
 
     Json json() const; ///< member of "ensemble" in summary.json
   };

@@ -40,6 +40,9 @@ namespace Voussoir
      * Throws WriteError. */
     void begin(bool resume, bool keep_problems);
 
+    /** Removes the results of a run from a directory, and the directory if it has no other files. */
+    static void remove_results(const std::string &path);
+
     /** Throws WriteError if a table that exists at the first call does not exist at a later one. */
     void expect_tables();
 
