@@ -35,7 +35,7 @@ install(FILES ${CMAKE_BINARY_DIR}/voussoir.bash DESTINATION ${CMAKE_INSTALL_DATA
 install(DIRECTORY scripts/ DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts USE_SOURCE_PERMISSIONS FILES_MATCHING PATTERN "*.py"
   PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN coverage.py EXCLUDE PATTERN function_lengths.py EXCLUDE
   PATTERN check_imports.py EXCLUDE PATTERN site.py EXCLUDE)
-install(DIRECTORY prm meshes studies DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
+install(DIRECTORY examples prm meshes studies DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
 # The scripts look for the package in ../python, whichever Python runs them.
 install(DIRECTORY python/voussoir DESTINATION ${VOUSSOIR_PYTHON_DIR} PATTERN __pycache__ EXCLUDE)
 if(VOUSSOIR_PYTHON_DIR STREQUAL "${VOUSSOIR_SHARE_DIR}/python") # for pip; Python's own directory wants no such file

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the site: README, tutorials, all pages of doc/, the reference of all entries, with search (MkDocs with the
+"""Builds the site: README, tutorials, all pages of doc/ and examples/, the reference of all entries, with search (MkDocs with the
 theme Material, Debian: mkdocs-material).
 
     scripts/site.py [--output build/site] [--voussoir build/voussoir]
@@ -27,6 +27,8 @@ NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.
                "messages", "parallel"),
     "Reference": ("input_file", "parameters", "output", "mesh", "loads", "python", "base_joints",
                   "generated/refused_pairs", "glossary", "changes"),
+    "Examples": ("examples/README", *(f"examples/{name}/README" for name in ("first_run", "own_dam", "keys", "base_joint", "rock", "water", "ensemble",
+                                                                             "section", "bricks"))),
     "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
     "Evidence": ("verification", "performance", "paper", "failures"),
     "Develop": ("CONTRIBUTING", "tutorials/5_own_law", "release"),
@@ -38,6 +40,15 @@ def title_of(page):
     return next(line[2:].strip() for line in page.read_text(encoding="utf-8").splitlines() if line.startswith("# "))
 
 
+def stage_examples(pages):
+    """The pages and figures of examples/, each page with its input file."""
+    shutil.copytree(ROOT / "examples", pages / "examples", ignore=shutil.ignore_patterns("*.py", "*.prm", "*.csv"))
+    for page in (pages / "examples").glob("*/README.md"):
+        scene = (ROOT / page.relative_to(pages)).with_name("scene.prm").read_text(encoding="utf-8")
+        text = page.read_text(encoding="utf-8").replace("](../../doc/", "](../../")
+        page.write_text(f"{text}\n## scene.prm\n\n```\n{scene}```\n", encoding="utf-8")
+
+
 def stage(pages):
     """All pages as the site has them: README is the first one, what the sources alone have is named, not linked."""
     shutil.copytree(ROOT / "doc", pages, ignore=shutil.ignore_patterns("Doxyfile.in", "mainpage.md", "*.csv"))
@@ -46,19 +57,22 @@ def stage(pages):
     (pages / "index.md").write_text(readme, encoding="utf-8")
     for name in OTHERS:
         shutil.copy(ROOT / name, pages / name)
+    stage_examples(pages)
     for page in pages.rglob("*.md"):
         text, here = page.read_text(encoding="utf-8"), page.parent
 
         def link(match, here=here):
             target = match[2].split("#")[0]
-            if "://" in target or not target or (here / target).exists():
+            if "://" in target or not target or (here / target).is_file():
                 return match[0]
-            if (ROOT / "doc" / here.relative_to(pages) / target).exists() or (ROOT / target).exists():
+            if (here / target / "README.md").is_file():
+                return f"[{match[1]}]({target}/README.md)"
+            if any((ROOT / top / target).exists() for top in ("", here.relative_to(pages), "doc" / here.relative_to(pages))):
                 return f"`{match[1]}`"  # a file of the sources
             return match[0]
 
         text = re.sub(r"(?<!!)\[([^\]]*)\]\(([^)\s]+)\)", link, text.replace("](../../CONTRIBUTING.md)", "](../CONTRIBUTING.md)")
-                      .replace("](doc/", "]("))
+                      .replace("](doc/", "](").replace("](../examples", "](examples").replace("](../../examples", "](../examples"))
         page.write_text(text, encoding="utf-8")
 
 

@@ -31,7 +31,8 @@ def install():
     cmake, prefix = os.environ["CMAKE"], Path("prefix").absolute()
     does(cmake, "--install", os.environ["BUILD"], "--prefix", str(prefix))
     for file in ("bin/voussoir", "include/voussoir/contact/joint_law.h", "share/voussoir/scripts/figures.py", "share/voussoir/python/voussoir/report.css",
-                 "share/voussoir/prm/quickstart.prm", "share/voussoir/meshes/keys_law.msh", "share/bash-completion/completions/voussoir"):
+                 "share/voussoir/prm/quickstart.prm", "share/voussoir/meshes/keys_law.msh", "share/voussoir/examples/keys/scene.prm",
+                 "share/bash-completion/completions/voussoir"):
         expect((prefix / file).is_file(), f"{file} is not installed")
 
     # Nothing of the installation may point to the sources or to where they were built.

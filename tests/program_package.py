@@ -386,7 +386,7 @@ def editor():
 
 
 def site():
-    """Every page of doc/ is in the site, no link is broken (MkDocs is strict), every list is a list, and the search finds words."""
+    """Every page of doc/ and examples/ is in the site, no link is broken (MkDocs is strict), every list is a list, and the search finds words."""
     words = [sys.executable, str(ROOT / "scripts" / "site.py"), "--output", "site", "--voussoir", VOUSSOIR]
     result = subprocess.run(words, capture_output=True, text=True)
     if "theme Material is not there" in result.stderr:
@@ -403,6 +403,10 @@ def site():
         listed = len(re.findall(r"^ *(?:-|\d+\.) ", text, re.M))
         article = Path("site", name).read_text().partition("<article")[2].partition("</article>")[0]
         expect(article.count("<li>") == listed, f"{name}: {article.count('<li>')} entries of lists, {page} has {listed}")
+    for page in (ROOT / "examples").glob("*/README.md"):
+        name = page.relative_to(ROOT).with_name("index.html")
+        article = Path("site", name).read_text().partition("<article")[2].partition("</article>")[0]
+        expect('src="figure.png"' in article and "subsection " in article and Path("site", name).with_name("figure.png").is_file(), f"{name}")
     found = json.loads(Path("site/search/search_index.json").read_text())["docs"]
     expect(any("Joints/Friction" in page["text"] for page in found), "the search does not know Joints/Friction")
     outside = re.findall(r'<(?:script|link)[^>]*(?:src|href)="(https?:[^"]*\.(?:js|css)[^"]*)"', Path("site/index.html").read_text())
