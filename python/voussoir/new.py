@@ -122,7 +122,7 @@ class NewScene(SceneText):
                 continue
             self.values["Dynamics/Steps per sample"] = str(steps)
             try:
-                self.run("", self.values)
+                self.run("", {**self.values, "Foundation/Substeps": "1"})
                 return
             except InputError as error:
                 needed = re.search(r'"Dynamics/Steps per sample" to (\d+)', str(error))
