@@ -6,7 +6,7 @@ import os
 
 from .command import Parser
 from .errors import InputError
-from .scene_text import SceneText, number_text
+from .scene_text import SceneText
 
 USUAL_WIDTH = 18.  # of a monolith [m]
 
@@ -41,7 +41,6 @@ def main(words=None):
         raise InputError("`voussoir arcs` needs one table of arcs. `voussoir arcs --help` shows the usage.")
     table = options.table[0]
     scene = SceneText(options.output or os.path.splitext(table)[0] + ".prm")
-    scene.expect_new()
     kinds = scene.choices("Mesh/Arcs/Kind").removeprefix(", one of: ").split(", ")
     kind = options.kind or scene.default("Mesh/Arcs/Kind")
     if kind not in kinds:
@@ -51,15 +50,15 @@ def main(words=None):
     scene.set("Mesh/Arcs/Table", os.path.relpath(os.path.realpath(table), os.path.realpath(scene.directory or ".")))
     grid, dam = choose_mesh(scene)
     for name, value in grid.items():
-        scene.values[f"Mesh/Arcs/{name.replace('_', ' ')}"] = number_text(value)
+        scene.values[f"Mesh/Arcs/{name.replace('_', ' ')}"] = f"{value:.9g}"
     scene.add("Mesh/Arcs/Elements up", "Mesh/Arcs/Elements through")
     height = dam["top"] - dam["bottom"]
-    scene.set("Reservoir/Water level", number_text(math.floor(dam["top"] - 0.05 * height)))
+    scene.set("Reservoir/Water level", f"{math.floor(dam['top'] - 0.05 * height):.9g}")
     scene.set("Motion/Source", "artificial")
     scene.add("Joints/Model", "Foundation/Model", "Motion/Peak acceleration", "Motion/Duration")
     scene.add_materials()
-    scene.write(f"# A dam from a table of arcs: {number_text(round(height, 1))} m high, crest {number_text(round(dam['crest'], 1))} m, "
-                f"{number_text(round(dam['volume']))} m^3.\n# Check every entry. All others have the defaults of `voussoir parameters`.\n")
+    scene.write(f"# A dam from a table of arcs: {round(height, 1):.9g} m high, crest {round(dam['crest'], 1):.9g} m, "
+                f"{round(dam['volume']):.9g} m^3.\n# Check every entry. All others have the defaults of `voussoir parameters`.\n")
     up, through = (scene.values[f"Mesh/Arcs/Elements {direction}"] for direction in ("up", "through"))
     print(f"{scene.file}: height {height:.1f} m, crest {dam['crest']:.1f} m, volume {dam['volume']:.0f} m3; {grid['Joints']} joints, "
           f"{grid['Elements_along']} x {up} x {through} elements, smallest scaled Jacobian {dam['jacobian']}")

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""`voussoir new`: asks for dam, water level, joint model, foundation and ground motion on standard input, checks each answer, and
-writes a commented input file. An empty answer or the end of the input is the default.
-"""
+"""`voussoir new`: asks for the main choices on standard input, checks each answer, and writes a commented input file."""
 
 import math
 import os
@@ -15,6 +13,7 @@ from .scene_text import SceneText
 HEADING = ("# Scene of a dam, written by `voussoir new`. All other entries have their defaults.\n"
            "# Check each value: `voussoir parameters SECTION` describes all entries of a section.\n")
 STEPS = (1, 2, 5, 10, 20, 50)
+FILES = ("Motion/File", "Motion/File x", "Motion/File y", "Motion/File z")
 
 
 class NewScene(SceneText):
@@ -32,8 +31,8 @@ class NewScene(SceneText):
                     raise
                 print(f"   {error}")
 
-    def ask(self, name, standard=None, check=None):
-        """Asks for an entry until its value is valid. check(number): InputError for a value that does not fit the other answers."""
+    def ask(self, name, standard=None, check=lambda number: None):
+        """Asks for an entry until its value is valid. The end of the input is the standard. check(number): throws InputError."""
         standard = self.default(name) if standard is None else standard
 
         def question():
@@ -43,9 +42,7 @@ class NewScene(SceneText):
             answer = line.decode(errors="replace").strip() or standard
             if self.ended or not sys.stdin.isatty():
                 print(answer)
-            number = self.set(name, answer)
-            if check is not None:
-                check(number)
+            check(self.set(name, answer))
 
         print(self.known[name]["documentation"])
         self.until_valid(question)
@@ -56,10 +53,10 @@ class NewScene(SceneText):
             file = os.path.join(self.directory, self.values[name])
             if self.values[name] and not os.path.isfile(file):
                 raise InputError(f"The file {file} does not exist. Correct the name.")
-            if not self.values[name] and needed:
-                raise InputError("Name a file.")
             if not self.values[name]:
                 self.forget(name)
+                if needed:
+                    raise InputError("Name a file.")
 
         self.ask(name, "", check)
 
@@ -108,48 +105,44 @@ class NewScene(SceneText):
         self.forget("Mesh/Arch210/Rock/Enabled", "Mesh/Arcs/Rock/Enabled", "Dynamics/Steps per sample")
         model, source = self.values["Foundation/Model"], self.values["Mesh/Source"]
         if model == "rigid":
-            return
+            return None
         if source == "file" and not self.mesh["rock"]:
             raise InputError("The mesh has no volumes of rock. Choose rigid.")
         if source != "file":
             self.values["Mesh/Arcs/Rock/Enabled" if source == "arcs" else "Mesh/Arch210/Rock/Enabled"] = "true"
         if model != "rock":
-            return
+            return None
         print("   The critical time step of the rock is computed.", flush=True)
         least = 1
         for steps in STEPS:
-            if steps < least and steps != STEPS[-1]:
-                continue
             self.values["Dynamics/Steps per sample"] = str(steps)
             try:
-                self.run("", {**self.values, "Foundation/Substeps": "1"})
-                return
+                if steps >= least or steps == STEPS[-1]:
+                    return self.run("", {**self.values, "Foundation/Substeps": "1"})
             except InputError as error:
                 needed = re.search(r'"Dynamics/Steps per sample" to (\d+)', str(error))
-                if needed is None or steps == STEPS[-1]:
+                least = int(needed[1]) if needed else 1
+                if steps == STEPS[-1]:
                     raise
-                least = int(needed[1])
 
     def ask_motion(self):
         """Asks for the ground motion."""
         self.ask("Motion/Source")
         source = self.values["Motion/Source"]
+        if source == "none":
+            return self.forget("Dynamics/Steps per sample")
         if source == "artificial":
             self.ask("Motion/Peak acceleration")
-        elif source == "file":
-            self.until_valid(self.ask_records)
-        if source == "none":
-            self.forget("Dynamics/Steps per sample")
         else:
-            self.add("Motion/Duration", "Motion/Time step")
+            self.until_valid(self.ask_records)
+        return self.add("Motion/Duration", "Motion/Time step")
 
     def ask_records(self):
         """Asks for the files of the ground motion and their unit. InputError for a motion of unusual size."""
-        components = [f"Motion/File {direction}" for direction in "xyz"]
-        self.forget("Motion/File", *components)  # of a previous attempt
-        self.ask_file("Motion/File")
-        if "Motion/File" not in self.values:
-            for name in components:
+        self.forget(*FILES)  # of a previous attempt
+        self.ask_file(FILES[0])
+        if FILES[0] not in self.values:
+            for name in FILES[1:]:
                 self.ask_file(name)
         self.ask("Motion/Unit")
         report, _ = self.run("motion", {name: value for name, value in self.values.items() if name.startswith("Motion/")})
@@ -165,17 +158,11 @@ def main(words=None):
     if len(files) > 1:
         raise InputError(f'`voussoir new` writes one file. Remove the argument "{files[1]}".')
     scene = NewScene(files[0] if files else "dam.prm")
-    scene.expect_new()
-    print("Enter takes the value in brackets. The end of the input takes all remaining ones.\n\n1. Dam")
-    scene.until_valid(scene.ask_dam)
-    print("\n2. Water")
-    scene.ask_water()
-    print("\n3. Joints")
-    scene.ask_joints()
-    print("\n4. Foundation")
-    scene.ask("Foundation/Model", check=scene.set_rock)
-    print("\n5. Ground motion")
-    scene.ask_motion()
+    print("Enter takes the value in brackets. The end of the input takes all remaining ones.")
+    for number, (title, questions) in enumerate((("Dam", lambda: scene.until_valid(scene.ask_dam)), ("Water", scene.ask_water), ("Joints", scene.ask_joints),
+                                                 ("Foundation", lambda: scene.ask("Foundation/Model", check=scene.set_rock)), ("Ground motion", scene.ask_motion)), 1):
+        print(f"\n{number}. {title}")
+        questions()
     scene.add_materials()
     scene.write(HEADING)
     print(f"\n{scene.file} is written. Check each value, then\n    voussoir {scene.file} --validate\n    voussoir {scene.file}")

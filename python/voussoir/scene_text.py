@@ -18,16 +18,12 @@ MATERIAL = ("Young's modulus", "Poisson's ratio", "Density")
 NUMBERS = ("[Double", "[Integer")
 
 
-def number_text(number):
-    """Text of a number with up to nine significant digits."""
-    return f"{number:.9g}"
-
-
 class SceneText:
-    """The entries of the file, "Section/Entry" -> text, and what the program declares about all entries."""
+    """The entries of the file, "Section/Entry" -> text, and what the program declares about all entries. InputError if the file exists."""
 
     def __init__(self, file):
         self.file, self.directory = file, os.path.dirname(file)
+        self.expect_new()
         self.known, self.values = declarations(), {}
 
     def default(self, name):
@@ -40,21 +36,17 @@ class SceneText:
         return ", one of: " + found[1].replace("|", ", ") if found else ""
 
     def run(self, command, entries):
-        """Runs `voussoir COMMAND` with these entries, "" for --validate --json. Returns its output and its messages, which name no option --set.
-
-        InputError and ComputationError carry the message of the program."""
-        def plain(text):
-            return text.replace(os.getcwd() + "/", "").replace("--set: entry ", "").replace(" (--set)", "")
-
+        """Runs `voussoir COMMAND` with these entries, "" for --validate. Returns its output and messages, or throws its errors."""
         entries = {name: os.path.join(os.getcwd(), self.directory, value) if name in FILES and value else value for name, value in entries.items()}
         with TemporaryDirectory() as directory:
             scene = Path(directory, "scene.prm")
             scene.touch()
-            words = {"": [scene, "--validate", "--json"], "scene": ["scene", scene]}.get(command, [command, scene, "--output", Path(directory, "new.msh")])
+            words = {"": [scene, "--validate"], "scene": ["scene", scene]}.get(command, [command, scene, "--output", Path(directory, "new.msh")])
             result = start(*words, *set_options(entries))
+        messages = result.stderr.replace(os.getcwd() + "/", "").replace("--set: entry ", "").replace(" (--set)", "")
         if result.returncode != 0:
-            raise (InputError if result.returncode == 2 else ComputationError)(plain(message_of(result.stderr, result.returncode)))
-        return result.stdout, plain(result.stderr)
+            raise (InputError if result.returncode == 2 else ComputationError)(message_of(messages, result.returncode))
+        return result.stdout, messages
 
     def set(self, name, value):
         """Sets an entry. Returns the number of an entry that is one, in its unit. InputError for an invalid or unusual value."""
@@ -68,9 +60,8 @@ class SceneText:
             if value != self.default(name):
                 output, messages = self.run("scene", {**self.values, name: value})
                 text = read_entries(output)[name][0]
-                for line in messages.splitlines():
-                    if line.startswith(f"voussoir: warning: {name} is ") and ": usual is " in line:
-                        raise InputError(line.removeprefix("voussoir: warning: "))
+                if unusual := re.search(rf"warning: ({re.escape(name)} is .*: usual is .*)", messages):
+                    raise InputError(unusual[1])
             number = float(text)
         self.values[name] = value
         return number
@@ -81,10 +72,8 @@ class SceneText:
             self.values.setdefault(name, self.default(name))
 
     def mesh_facts(self, **grid):
-        """Bottom, top, length of the crest [m], volume [m3] and smallest scaled Jacobian of the dam; whether the mesh has rock.
-
-        grid: values of "Elements along" as Elements_along."""
-        entries = {f"Mesh/Arcs/{name.replace('_', ' ')}": number_text(value) for name, value in grid.items()}
+        """Bottom, top, crest [m], volume [m3] and smallest scaled Jacobian of the dam; whether there is rock. grid: as Elements_along=40."""
+        entries = {f"Mesh/Arcs/{name.replace('_', ' ')}": f"{value:.9g}" for name, value in grid.items()}
         text, _ = self.run("mesh", {**{name: value for name, value in self.values.items() if name.startswith("Mesh/")}, **entries})
         dam = re.search(r"^dam : z from (\S+) to (\S+) m, crest (\S+) m, volume (\S+) m3", text, re.M)
         jacobian = re.search(r"^dam : .*smallest scaled Jacobian ([^\s,]+)", text, re.M)
@@ -113,7 +102,7 @@ class SceneText:
         return ". ".join(sentences) + "."
 
     def expect_new(self):
-        """InputError if the file exists, or if its directory does not."""
+        """Throws InputError if the file exists, or if its directory does not."""
         if os.path.lexists(self.file):
             raise InputError(f"The file {self.file} exists, and is not replaced. Name another file, or remove it.")
         if self.directory and not os.path.isdir(self.directory):
