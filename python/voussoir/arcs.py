@@ -8,15 +8,14 @@ from .command import Parser
 from .errors import InputError
 from .scene_text import SceneText
 
-USUAL_WIDTH = 18.  # of a monolith [m]
-
 
 def choose_mesh(scene):
-    """Chooses joints at distances of about 18 m, and elements of about a tenth of the height. Reduces the smallest height if the end
-    monoliths are low. Returns the entries of the mesh and its measures."""
+    """Returns entries of the mesh and its measures: joints at distances of about 18 m, elements of about a tenth of the height.
+
+    Reduces the smallest height if the end monoliths are low."""
     fine = scene.mesh_facts(Joints=0, Elements_along=200, Elements_up=2, Elements_through=1)
     length, height = fine["crest"], fine["top"] - fine["bottom"]
-    joints = max(0, min(9999, math.floor(length / USUAL_WIDTH + .5) - 1))
+    joints = max(0, min(9999, math.floor(length / 18. + .5) - 1))
     along = (joints + 1) * max(2, math.ceil(length / (joints + 1) / (height / 10) - 1e-6))
     grid = {"Joints": joints, "Elements_along": along}
     smallest = float(scene.default("Mesh/Arcs/Smallest height"))
@@ -26,8 +25,7 @@ def choose_mesh(scene):
         except InputError:
             if smallest <= 0.5:
                 raise
-        smallest /= 2
-        grid["Smallest_height"] = smallest
+        smallest = grid["Smallest_height"] = smallest / 2
 
 
 def main(words=None):
@@ -59,8 +57,8 @@ def main(words=None):
     scene.add_materials()
     scene.write(f"# A dam from a table of arcs: {round(height, 1):.9g} m high, crest {round(dam['crest'], 1):.9g} m, "
                 f"{round(dam['volume']):.9g} m^3.\n# Check every entry. All others have the defaults of `voussoir parameters`.\n")
-    up, through = (scene.values[f"Mesh/Arcs/Elements {direction}"] for direction in ("up", "through"))
     print(f"{scene.file}: height {height:.1f} m, crest {dam['crest']:.1f} m, volume {dam['volume']:.0f} m3; {grid['Joints']} joints, "
-          f"{grid['Elements_along']} x {up} x {through} elements, smallest scaled Jacobian {dam['jacobian']}")
+          f"{grid['Elements_along']} x {scene.values['Mesh/Arcs/Elements up']} x {scene.values['Mesh/Arcs/Elements through']} elements, "
+          f"smallest scaled Jacobian {dam['jacobian']}")
     print(f"Next: voussoir view {scene.file}, voussoir {scene.file} --validate")
     return 0

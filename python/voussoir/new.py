@@ -10,8 +10,7 @@ from .command import Parser
 from .errors import InputError
 from .scene_text import SceneText
 
-HEADING = ("# Scene of a dam, written by `voussoir new`. All other entries have their defaults.\n"
-           "# Check each value: `voussoir parameters SECTION` describes all entries of a section.\n")
+SECTIONS = {"arch210": "Mesh/Arch210/", "arcs": "Mesh/Arcs/"}
 STEPS = (1, 2, 5, 10, 20, 50)
 FILES = ("Motion/File", "Motion/File x", "Motion/File y", "Motion/File z")
 
@@ -74,12 +73,11 @@ class NewScene(SceneText):
             self.ask_file("Mesh/File", needed=True)
             self.ask("Mesh/Axes")
             self.ask("Mesh/Length unit")
-        else:
-            if source == "arcs":
-                self.ask("Mesh/Arcs/Kind")
-                self.ask_file("Mesh/Arcs/Table", needed=True)
-            section = "Mesh/Arcs/" if source == "arcs" else "Mesh/Arch210/"
-            self.add(*(section + name for name in ("Joints", "Elements along", "Elements up", "Elements through")))
+        if source == "arcs":
+            self.ask("Mesh/Arcs/Kind")
+            self.ask_file("Mesh/Arcs/Table", needed=True)
+        if source in SECTIONS:
+            self.add(*(SECTIONS[source] + name for name in ("Joints", "Elements along", "Elements up", "Elements through")))
         self.mesh = self.mesh_facts()
 
     def ask_water(self):
@@ -102,14 +100,12 @@ class NewScene(SceneText):
 
     def set_rock(self, _):
         """Adds rock to the mesh of a foundation that needs it, and chooses its time step."""
-        self.forget("Mesh/Arch210/Rock/Enabled", "Mesh/Arcs/Rock/Enabled", "Dynamics/Steps per sample")
+        self.forget(*(section + "Rock/Enabled" for section in SECTIONS.values()), "Dynamics/Steps per sample")
         model, source = self.values["Foundation/Model"], self.values["Mesh/Source"]
-        if model == "rigid":
-            return None
-        if source == "file" and not self.mesh["rock"]:
+        if model != "rigid" and source == "file" and not self.mesh["rock"]:
             raise InputError("The mesh has no volumes of rock. Choose rigid.")
-        if source != "file":
-            self.values["Mesh/Arcs/Rock/Enabled" if source == "arcs" else "Mesh/Arch210/Rock/Enabled"] = "true"
+        if model != "rigid" and source in SECTIONS:
+            self.values[SECTIONS[source] + "Rock/Enabled"] = "true"
         if model != "rock":
             return None
         print("   The critical time step of the rock is computed.", flush=True)
@@ -159,11 +155,13 @@ def main(words=None):
         raise InputError(f'`voussoir new` writes one file. Remove the argument "{files[1]}".')
     scene = NewScene(files[0] if files else "dam.prm")
     print("Enter takes the value in brackets. The end of the input takes all remaining ones.")
-    for number, (title, questions) in enumerate((("Dam", lambda: scene.until_valid(scene.ask_dam)), ("Water", scene.ask_water), ("Joints", scene.ask_joints),
-                                                 ("Foundation", lambda: scene.ask("Foundation/Model", check=scene.set_rock)), ("Ground motion", scene.ask_motion)), 1):
+    parts = {"Dam": lambda: scene.until_valid(scene.ask_dam), "Water": scene.ask_water, "Joints": scene.ask_joints,
+             "Foundation": lambda: scene.ask("Foundation/Model", check=scene.set_rock), "Ground motion": scene.ask_motion}
+    for number, (title, questions) in enumerate(parts.items(), 1):
         print(f"\n{number}. {title}")
         questions()
     scene.add_materials()
-    scene.write(HEADING)
+    scene.write("# Scene of a dam, written by `voussoir new`. All other entries have their defaults.\n"
+                "# Check each value: `voussoir parameters SECTION` describes all entries of a section.\n")
     print(f"\n{scene.file} is written. Check each value, then\n    voussoir {scene.file} --validate\n    voussoir {scene.file}")
     return 0
