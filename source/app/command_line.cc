@@ -267,8 +267,8 @@ namespace Voussoir
       print_parameters(arguments.words);
     else if (arguments.command == "completion")
       print_completion(arguments.words, std::cout);
-    else if (!script_of(arguments.command).empty())
-      become_script(script_of(arguments.command), words_of(arguments));
+    else if (const Command &command = command_of(arguments.command); *command.script != '\0')
+      become_script(command.script, words_of(arguments), command.modules);
     else if (arguments.command.empty() && arguments.words.empty())
     {
       std::cout << help_about_all();
