@@ -15,10 +15,11 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "python" / "voussoir"
 LAYERS = (("errors",), ("palette", "prm", "tables", "units", "vtu", "chromium"), ("ensembles", "error_bars", "results"), ("program",),
           ("command", "runs", "zone_tension"),
-          ("drawing", "frames", "picture", "report_places", "study_file", "study_scene"),
+          ("drawing", "frames", "picture", "report_places", "scene_text", "study_file", "study_scene"),
           ("ensemble_drawing", "mode_shapes", "needs_verdicts", "report_scene", "report_tables", "study_figures", "study_results"),
           ("report_answers", "report_figures", "report_needs"), ("report_ensemble", "report_view3d"),
-          ("accuracy", "figures", "film", "needs_command", "needs_output", "needs_runs", "report", "study", "view"), ("__init__",))
+          ("accuracy", "arcs", "figures", "film", "needs_command", "needs_output", "needs_runs", "new", "report", "study", "view"),
+          ("__init__",))
 FLOOR = {name: floor for floor, names in enumerate(LAYERS) for name in names}
 
 

@@ -29,8 +29,10 @@ is_file run/summary.json run/solution.pvd run/figures/envelope_upstream.png run/
 tried voussoir modes small.prm --count 2 --output modes
 tried voussoir view small.prm --output view
 is_file view/view.png
-tried voussoir arcs "$share/meshes/morrow_point.csv" --output morrow_point.msh --joints 3 --along 8 --up 3
-tried voussoir modes small.prm --set Mesh/Source=file --set Mesh/File=morrow_point.msh --set 'Reservoir/Water level=140' --count 2
+tried voussoir arcs "$share/meshes/morrow_point.csv" --output morrow_point.prm
+tried voussoir modes morrow_point.prm --count 2
+tried voussoir new dam.prm </dev/null
+is_file morrow_point.prm dam.prm
 tried voussoir report run
 is_file run/report.html
 tried python3 -c 'import voussoir; print(voussoir.run("small.prm", "again").summary["extremes"]["max_opening"])'

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <deal.II/base/config.h>
 
-#include <voussoir/app/arcs_command.h>
 #include <voussoir/app/command_line.h>
 #include <voussoir/app/command_options.h>
 #include <voussoir/app/completion.h>
@@ -9,10 +8,10 @@
 #include <voussoir/app/ensemble.h>
 #include <voussoir/app/memory_need.h>
 #include <voussoir/app/modes_command.h>
-#include <voussoir/app/new_command.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/base/python_script.h>
 #include <voussoir/base/version.h>
 #include <voussoir/mesh/gmsh_io.h>
@@ -59,6 +58,16 @@ namespace Voussoir
       std::printf("%zu nodes, %zu hexahedra\n", mesh.nodes.size(), mesh.cells.size());
       if (!mesh.remark.empty())
         std::printf("%s\n", mesh.remark.c_str());
+      const HexMesh dam = monoliths_only(mesh);
+      double        bottom = 1e300, top = -1e300;
+      for (const auto &node : dam.nodes)
+      {
+        bottom = std::min(bottom, node[2]);
+        top = std::max(top, node[2]);
+      }
+      std::printf("dam : z from %s to %s m, crest %s m, volume %s m3\n", number_text(bottom).c_str(),
+                  number_text(top).c_str(), number_text(crest_length(dam)).c_str(),
+                  number_text(volume(dam)).c_str());
       for (const bool of_rock : {false, true})
       {
         const auto n_cells =
@@ -256,14 +265,10 @@ namespace Voussoir
                                                                          : help_about(arguments.command));
     else if (arguments.command == "parameters")
       print_parameters(arguments.words);
-    else if (arguments.command == "arcs")
-      write_scene_of_arcs(arguments);
     else if (arguments.command == "completion")
       print_completion(arguments.words, std::cout);
-    else if (arguments.command == "new")
-      write_new_scene(arguments.words);
-    else if (!script_of(arguments.command).empty())
-      become_script(script_of(arguments.command), words_of(arguments));
+    else if (const Command &command = command_of(arguments.command); *command.script != '\0')
+      become_script(command.script, words_of(arguments), command.modules);
     else if (arguments.command.empty() && arguments.words.empty())
     {
       std::cout << help_about_all();

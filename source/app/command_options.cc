@@ -43,7 +43,9 @@ namespace Voussoir
          "TABLE.csv",
          "Writes a commented scene for a dam from a table of arcs.",
          {{"--output", "FILE.prm", "the file to write, by default TABLE.prm"},
-          {"--kind", "KIND", "circular (default), parabolic, elliptical, three-centred or points"}}},
+          {"--kind", "KIND", "circular (default), parabolic, elliptical, three-centred or points"}},
+         "arcs.py",
+         ""},
         {"mesh",
          "SCENE.prm",
          "Writes the mesh of a scene as a file of gmsh.",
@@ -64,7 +66,9 @@ namespace Voussoir
         {"new",
          "[FILE.prm]",
          "Asks for dam, water, joints, foundation and motion. Writes a commented scene, by default dam.prm.",
-         {}},
+         {},
+         "new.py",
+         ""},
         {"motion",
          "SCENE.prm",
          "Writes the ground motion of a scene, t, a_x, a_y, a_z [s, m/s^2], and prints a report.",
@@ -311,9 +315,9 @@ namespace Voussoir
            "--set overrides an entry of the scene, and may be given several times.\n" + spelling + status;
   }
 
-  std::string script_of(const std::string &command)
+  const Command &command_of(const std::string &name)
   {
-    return find_command(command)->script;
+    return *find_command(name);
   }
 
   std::vector<std::string> words_of(const Arguments &arguments)

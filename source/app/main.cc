@@ -15,7 +15,8 @@ namespace
     { return std::find(words.begin(), words.end(), word) != words.end(); };
     if (words.empty() || has("--validate") || has("--help") || has("--version"))
       return false;
-    return words[0] != "parameters" && words[0] != "motion" && words[0] != "mesh";
+    const std::vector<std::string> quick = {"parameters", "motion", "mesh", "scene", "new", "arcs"};
+    return std::find(quick.begin(), quick.end(), words[0]) == quick.end();
   }
 
   /** Restarts the program with settings that libraries read when they are loaded, unless the user has set them:

@@ -85,7 +85,8 @@ namespace Voussoir
     return WEXITSTATUS(status);
   }
 
-  void become_script(const std::string &name, const std::vector<std::string> &arguments)
+  void become_script(const std::string &name, const std::vector<std::string> &arguments,
+                     const std::string &modules)
   {
     const fs::path script = find_script(name);
     if (script.empty())
@@ -96,7 +97,7 @@ namespace Voussoir
     setenv("VOUSSOIR_PROGRAM", fs::read_symlink("/proc/self/exe", error).c_str(), 1);
     for (const std::string &python : python_interpreters())
     {
-      if (run_process({python, "-c", "import numpy, matplotlib"}, "/dev/null") != 0)
+      if (!modules.empty() && run_process({python, "-c", "import " + modules}, "/dev/null") != 0)
         continue;
       std::vector<std::string> words = {python, script.string()};
       words.insert(words.end(), arguments.begin(), arguments.end());
@@ -106,8 +107,8 @@ namespace Voussoir
       throw InputError(python + " cannot be started: " + std::strerror(errno) +
                        ". Set the environment variable VOUSSOIR_PYTHON to another interpreter.");
     }
-    throw InputError("This command requires a python3 with numpy and matplotlib (on Debian: apt-get install "
-                     "python3-matplotlib). Install them, or set the environment variable VOUSSOIR_PYTHON to "
-                     "such an interpreter.");
+    throw InputError("This command requires a python3" + (modules.empty() ? "" : " with " + modules) +
+                     " (on Debian: apt-get install python3-matplotlib). Install it, or set the environment "
+                     "variable VOUSSOIR_PYTHON to such an interpreter.");
   }
 } // namespace Voussoir

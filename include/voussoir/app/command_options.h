@@ -21,7 +21,8 @@ namespace Voussoir
   {
     const char                *name, *words, *summary;
     std::vector<CommandOption> options;
-    const char                *script = ""; ///< Python script that executes it
+    const char                *script = "";                   ///< Python script that executes it
+    const char                *modules = "numpy, matplotlib"; ///< Python modules that the script requires
   };
 
   /** Returns all commands. */
@@ -62,8 +63,8 @@ namespace Voussoir
   /** Returns a summary of all commands. */
   std::string help_about_all();
 
-  /** Returns the Python script that executes a command. Empty: the program executes the command. */
-  std::string script_of(const std::string &command);
+  /** Returns a command of the table. */
+  const Command &command_of(const std::string &name);
 
   /** Returns words from which read_arguments() makes @p arguments, without the command. */
   std::vector<std::string> words_of(const Arguments &arguments);

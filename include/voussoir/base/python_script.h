@@ -23,8 +23,9 @@ namespace Voussoir
 
   /** Replaces this process by the script @p name with @p arguments. Signals, terminal and exit status then
    * belong to the script. The script finds this program in the environment variable VOUSSOIR_PROGRAM. Throws
-   * InputError if the script, or a python3 with numpy and matplotlib, is missing. */
-  [[noreturn]] void become_script(const std::string &name, const std::vector<std::string> &arguments);
+   * InputError if the script, or a python3 with the @p modules ("numpy, matplotlib"), is missing. */
+  [[noreturn]] void become_script(const std::string &name, const std::vector<std::string> &arguments,
+                                  const std::string &modules);
 } // namespace Voussoir
 
 #endif
