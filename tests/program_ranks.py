@@ -262,7 +262,7 @@ def errors():
     status, out, error = on_ranks(2, "--version")
     expect(status == 0 and out.count("Voussoir") == 1, out + error)
     status, out, error = on_ranks(2, "mesh", "scene.prm", "--output", "mesh.msh")
-    expect(status == 0 and out.count("dam :") == 1 and Path("mesh.msh").exists(), out + error)
+    expect(status == 0 and out.count("dam : z from") == 1 and Path("mesh.msh").exists(), out + error)
     status, out, error = on_ranks(2, "modes", "scene.prm", "--count", "2", "--output", "modes")
     expect(status == 0 and out.count("mode  frequency") == 1 and Path("modes/modes.csv").exists(), out + error)
     status, out, error = on_ranks(2, "scene.prm", "--validate")
