@@ -179,7 +179,7 @@ namespace Voussoir
       static constexpr std::size_t no_sample = -1;
       struct Condition
       {
-        std::size_t gradient, sample; ///< index in #gradients; no_sample, or the only sample that is not zero
+        std::size_t gradient, sample; ///< index in gradients; no_sample, or the only sample that is not zero
         double      value, slack;
       };
       Vector                 root_weight;
