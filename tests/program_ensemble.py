@@ -6,6 +6,8 @@
 """
 
 import csv
+import os
+import shutil
 import signal
 import subprocess
 import time
@@ -148,8 +150,8 @@ def resumed():
 
 def stop(directory, motions, chosen, environment):
     """Stops an ensemble after its first results."""
-    import os
-    for _ in range(5):
+    for _ in range(10):
+        shutil.rmtree(directory, ignore_errors=True)
         process = subprocess.Popen([VOUSSOIR, "scene.prm", "--output", directory, "--overwrite", *settings(f"Motion/Ensemble={motions}"), *chosen],
                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True, env={**os.environ, **environment})
         while not Path(directory, "checkpoint.bin").exists() and process.poll() is None:

@@ -181,7 +181,11 @@ namespace Voussoir
     for (std::size_t k = 0; k < members.size(); ++k)
       if (!is_done[k])
       {
-        stop_if_asked();
+        if (signal() != nullptr)
+        {
+          save();
+          throw_interrupted();
+        }
         run_one(k, members[k].has_output);
         save();
       }
