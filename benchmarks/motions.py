@@ -90,6 +90,8 @@ def main():
     parser.add_argument("--repeat", type=int, default=3)
     add_program_argument(parser)
     arguments = parser.parse_args()
+    if arguments.what == "speed" and not (arguments.before and arguments.scenes_before):
+        parser.error("speed requires --before and --scenes-before")
     {"scatter": scatter, "speed": speed}[arguments.what](arguments)
 
 

@@ -15,7 +15,9 @@ from math import sin
 from pathlib import Path
 from statistics import median
 
-from run_program import MESH, VOUSSOIR, expect, refused, run_cases, runs, same_to_the_bit, settings, summary, voussoir, write
+from program_bodies import column
+from program_bodies import scene as body_scene
+from run_program import MESH, VOUSSOIR, expect, refused, run_cases, runs, settings, summary, voussoir, write
 
 ARTIFICIAL = MESH + """
 subsection Joints
@@ -212,6 +214,13 @@ def kept():
         write(f"{name}.txt", "".join(f"{k * .01} {size * sin(.3 * k)} 0 0\n" for k in range(21)))
     shown = runs("scene.prm", "--validate", *settings("Motion/Ensemble=weak.txt; big.txt", "Motion/Source=file", "Motion/Duration=-1"))
     expect("'big.txt': " in shown and "peak acceleration" in shown, "warnings of all motions")
+    mesh = column("column", 4, .4, {"bottom": 1})  # without faces of a dam: stresses away from the base are not defined
+    body = ["--output", "body", "--overwrite", *settings("Motion/Ensemble=1-3", "Motion/Duration=0.2")]
+    runs(body_scene("body", mesh, Motion={"Source": "artificial"}), *body)
+    found = summary("body")["ensemble"]
+    expect(found["max_tension_upstream_away_from_base"]["median"] is None and found["max_compression"]["median"] < 0, f"{found}")
+    shown = runs("scene.prm", "--validate", *settings("Motion/Ensemble=1-2", "Motion/Seed=5"))
+    expect("Motion/Seed has no effect" in shown or "Motion/Seed" in shown and "no effect" in shown, "an idle seed")
     ensemble("short", "1", *EXPLICIT, *settings("Motion/Duration=0.2", "Dynamics/Explicit step=0.0001"))
     expect("single precision" in Path("short/log.txt").read_text(), "very short steps run one by one")
 

@@ -22,6 +22,8 @@ from . import report_figures as figures
 from . import report_view3d as view3d
 from .chromium import find_browser, print_page
 from .command import Parser, write_whole
+from .drawing import draw_overstress
+from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
 from .errors import ComputationError, InputError
 from .prm import prm_text
 from .report_answers import accuracy_sentence, answers, compared, mesh_quality, modes, modes_of, notes
@@ -307,14 +309,17 @@ def scatter(page, runs, several):
         of = f" of {escape(run.name)}" if several else ""
         if not run.tied:
             page.row(f"Largest openings and slips along the crest{of}: median, 16 to 84 %, and each motion.",
-                     [("", f"{quantity}s of {run.name}", lambda run=run, q=quantity: figures.joint_band(run, q)) for quantity in ("opening", "slip")])
+                     [("", f"{quantity}s of {run.name}", lambda run=run, q=quantity: figures.drawn(2.7, draw_joint_band, run, q))
+                      for quantity in ("opening", "slip")])
         measures = (["max_opening"] if not run.tied else []) + ["tension"]
         page.row(f"Share of the motions{of} up to a value.",
-                 [("", f"distribution of {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.distribution(run, m))
+                 [("", f"distribution of {measure.replace('_', ' ')} of {run.name}",
+                  lambda run=run, m=measure: figures.drawn(2.5, draw_distribution, run, m))
                   for measure in measures if run.ensemble.n > 1])
         if len(run.ensemble.factors) > 1:
             page.row(f"Incremental dynamic analysis{of}: factor of the motions, and largest value.",
-                     [("", f"dynamic analysis, {measure.replace('_', ' ')} of {run.name}", lambda run=run, m=measure: figures.dynamic_analysis(run, m))
+                     [("", f"dynamic analysis, {measure.replace('_', ' ')} of {run.name}",
+                      lambda run=run, m=measure: figures.drawn(2.9, draw_dynamic_analysis, run, m))
                       for measure in measures])
 
 
@@ -341,7 +346,7 @@ def stresses(page, runs):
               for run in strong for name in ("upstream", "downstream")])
     page.row("Cumulative duration for which the stress at any one point of a face is above a multiple of the static tensile strength "
              "(USACE EM 1110-2-6053).",
-             [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.overstress(run))
+             [(named(runs, run), f"duration of overstress of {run.name}", lambda run=run: figures.drawn(2.5, draw_overstress, run))
               for run in single(strong) if run.moves])
 
 

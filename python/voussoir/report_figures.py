@@ -10,9 +10,8 @@ import numpy as np
 from . import picture
 from .errors import InputError
 from .drawing import (DIRECTIONS, LIMIT, aspect, common_levels, common_top, demand_bar, draw_base, draw_crest, draw_crest_bars, draw_demand,
-                      draw_energy, draw_face, draw_joint_history, draw_motion_spectrum, draw_overstress, draw_spectrum, energy_parts, energy_unit, plt,
+                      draw_energy, draw_face, draw_joint_history, draw_motion_spectrum, draw_spectrum, energy_parts, energy_unit, plt,
                       show_periods, stress_bar, worst_joints)
-from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
 from .mode_shapes import draw_shape
 from .palette import line
 from .runs import NotComputed, Skip
@@ -290,33 +289,11 @@ def demand(run, name):
     return made
 
 
-def overstress(run):
-    @panel(2.5)
+def drawn(height, draw, *arguments):
+    """A figure with one drawing, such as draw_overstress(axes, run)."""
+    @panel(height)
     def made(_, axes):
-        draw_overstress(axes[0], run)
-    return made
-
-
-# ---------------------------------------------------------------- many motions
-
-def joint_band(run, quantity):
-    @panel(2.7)
-    def made(_, axes):
-        draw_joint_band(axes[0], run, quantity)
-    return made
-
-
-def distribution(run, measure):
-    @panel(2.5)
-    def made(_, axes):
-        draw_distribution(axes[0], run, measure)
-    return made
-
-
-def dynamic_analysis(run, measure):
-    @panel(2.9)
-    def made(_, axes):
-        draw_dynamic_analysis(axes[0], run, measure)
+        draw(axes[0], *arguments)
     return made
 
 

@@ -79,8 +79,21 @@ namespace Voussoir
 
     bool is_done() const { return run.is_last() || !failure.empty(); }
 
-    /** Records the state after a step. */
+    /** Records the state after a step. An exception must not leave the parallel region of BatchRun::advance(). */
     void follow()
+    {
+      try
+      {
+        record();
+      }
+      catch (const std::exception &error)
+      {
+        failure = error.what();
+      }
+    }
+
+    /** Adds the state after a step to the results, or sets #failure. */
+    void record()
     {
       const Unknowns v_before = integrator->state().v;
       const bool is_balanced = (run.step + 1) % steps_between_balances == 0 || run.step + 1 == run.n_steps;
@@ -98,16 +111,9 @@ namespace Voussoir
         failure = "the energy balance has an error of " + number_text(imbalance / reference_energy());
       if (!failure.empty())
         return;
-      try
-      {
-        stresses->follow();
-        joints->record();
-        stability->record();
-      }
-      catch (const std::exception &error) // must not leave the parallel region of BatchRun::advance()
-      {
-        failure = error.what();
-      }
+      stresses->follow();
+      joints->record();
+      stability->record();
       if (run.is_last())
         stresses->gather_on_root();
     }
@@ -115,7 +121,7 @@ namespace Voussoir
 
   BatchRun::BatchRun(const RunState &start, const BatchModel &model, const StressObserver &stresses,
                      const std::vector<const GroundMotion *> &motions)
-      : batch(model), dt(model.dt)
+      : batch(model)
   {
     for (const GroundMotion *motion : motions)
     {

@@ -203,6 +203,7 @@ namespace Voussoir
       if (is_first && report_clock.seconds() > report_interval)
       {
         report_clock = Stopwatch();
+        const std::lock_guard<std::mutex> lock(results_mutex);
         log.line("          t = %.2f s of %.2f s", (step + 1) * state.motion.dt,
                  batch.n_steps() * state.motion.dt);
       }

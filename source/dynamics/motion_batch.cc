@@ -307,14 +307,6 @@ namespace Voussoir
     return sum;
   }
 
-  double MotionBatch::memory() const
-  {
-    double floats = 0.;
-    for (const dealii::AlignedVector<float> *array : {&u, &v, &w, &f, &d, &gap, &moved, &impulse})
-      floats += array->size();
-    return sizeof(float) * floats;
-  }
-
   LaneIntegrator::LaneIntegrator(const MotionBatch &batch, const BatchModel &model, const JointLaws &laws,
                                  const Unknowns &force, const unsigned int lane)
       : Integrator(model.structure, laws), batch(batch), model(model), lane(lane),

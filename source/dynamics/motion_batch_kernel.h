@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kernel of MotionBatch for vectors of `lanes` floats. motion_batch.cc includes this file for each set of instructions, in a
-// namespace with the constant `lanes`, and with the macro VOUSSOIR_SQUARE_ROOT.
+// Kernel of MotionBatch for vectors of `lanes` floats. motion_batch.cc includes this file for each set of instructions,
+// in a namespace with the constant `lanes`, and with the macro VOUSSOIR_SQUARE_ROOT.
 
 using Vector = float __attribute__((vector_size(4 * lanes), may_alias));
 using Mask = int __attribute__((vector_size(4 * lanes)));
@@ -139,9 +139,9 @@ VOUSSOIR_INLINE void move_body(const BatchView &m, const Lanes &s, const std::si
   }
 }
 
-/** Solves the conditions of a joint with friction. @p b: gap without force, whose tangential part is the slip of the step.
- * Forces of open lanes are zero. Slipping lanes satisfy |H_t + lambda| force = slip by Newton's method for the inverse of
- * the force, which is exact for a matrix H that is a multiple of the unit matrix. */
+/** Solves the conditions of a joint with friction. @p b: gap without force; its tangential part is the slip of the step.
+ * Forces of open lanes are zero. In slipping lanes (H_t + lambda) f_t = -slip and |f_t| = mu f_n; Newton's method for
+ * 1/|f_t| finds lambda, exactly in one pass if H is a multiple of the unit matrix. */
 VOUSSOIR_INLINE void solve_friction(const BatchPair &pair, const Vector b[3], Vector f[3])
 {
   const Vector zero = {}, e2 = zero + pair.H_11 / pair.H_22, most = zero + 1e6f, tiny = zero + 1e-30f;

@@ -75,7 +75,6 @@ namespace Voussoir
       result.openings.push_back(joint.opening());
       result.slips.push_back(std::max(joint.slip_upstream, joint.slip_downstream));
     }
-
     result.overstress = assessment.overstress_seconds().value_or(-1.);
     for (const Verdict &verdict : assessment.all())
       result.limits.emplace_back(verdict.name, verdict.satisfied());
@@ -88,13 +87,15 @@ namespace Voussoir
 
   Spread::Spread(std::vector<double> values, const double noise)
   {
+    median = p16 = p84 = min = max = known_68 = known_95 = needed = unknown_value;
+    if (!std::all_of(values.begin(), values.end(), [](const double x) { return std::isfinite(x); }))
+      return;
     std::sort(values.begin(), values.end());
     median = percentile(values, .5);
     p16 = percentile(values, .16);
     p84 = percentile(values, .84);
     min = values.front();
     max = values.back();
-    known_68 = known_95 = needed = unknown_value;
     if (values.size() < 3 || !(std::abs(median) > noise))
       return;
     const std::vector<double> medians = medians_of_samples(values);

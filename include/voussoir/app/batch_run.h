@@ -11,7 +11,7 @@ namespace Voussoir
    * text. @p run: after the static state. */
   std::string why_no_batch(const RunState &run);
 
-  /** Run of up to MotionBatch::n_lanes() motions at once. */
+  /** Run of up to MotionBatch::n_lanes() motions together. */
   class BatchRun
   {
   public:
@@ -37,7 +37,6 @@ namespace Voussoir
   private:
     struct Lane;
     MotionBatch                        batch;
-    const double                       dt;
     unsigned int                       step = 0, most_steps = 0;
     std::vector<std::unique_ptr<Lane>> lanes;
   };

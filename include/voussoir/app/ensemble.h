@@ -10,7 +10,7 @@
 
 namespace Voussoir
 {
-  /** Run of all motions of "Motion/Ensemble" from the same static state: in batches of the explicit scheme where possible
+  /** Run of all motions of "Motion/Ensemble" from the same static state: in batches of the explicit scheme if possible
    * (why_no_batch()), otherwise one after another. The checkpoint has the results of the complete motions. */
   class EnsembleRun : private RunSetup
   {
@@ -44,7 +44,7 @@ namespace Voussoir
     EnsembleResults                   results;
     std::vector<char>                 is_done; ///< of each motion
     unsigned int                      lanes = 1;
-    std::mutex                        results_mutex; ///< of results and checkpoint
+    std::mutex                        results_mutex; ///< of results, checkpoint and log
     Stopwatch                         loop_clock, report_clock;
     std::size_t                       n_before = 0; ///< motions that were complete at the start
   };

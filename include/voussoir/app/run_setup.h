@@ -19,7 +19,7 @@ namespace Voussoir
     bool        json = false;      ///< with validate: print a JSON object
   };
 
-  /** Part of a run before its time loop: output directory, ground motions, dam, report of the setup and static state. */
+  /** Part of a run before its time loop: output directory, ground motions, dam, report of the setup, static state. */
   class RunSetup
   {
   protected:

@@ -11,8 +11,8 @@
 
 namespace Voussoir
 {
-  /** Structure and static state for batches of ground motions, in single precision. Displacements are increments from the
-   * static state, whose joint forces are the only loads besides inertia. */
+  /** Structure and static state for batches of ground motions, in single precision. Displacements are increments from
+   * the static state, whose joint forces are the only loads besides inertia. */
   class BatchModel
   {
   public:
@@ -58,8 +58,8 @@ namespace Voussoir
   };
 
   /** Explicit time integration of several ground motions of one structure with the leapfrog rule of Leapfrog: a lane of
-   * each vector of the processor is a motion. All lanes share each coefficient of the stiffness matrix that the processor
-   * reads. The result of a lane does not depend on the motions of the other lanes. */
+   * each vector of the processor is a motion. The processor reads each coefficient of the stiffness matrix once for all
+   * lanes. The result of a lane does not depend on the motions of the other lanes. */
   class MotionBatch
   {
   public:
@@ -74,13 +74,11 @@ namespace Voussoir
      * [m/s^2] have one entry per lane. */
     void advance(const std::vector<Vector3> &before, const std::vector<Vector3> &after);
 
-    /** Returns the state of a lane: displacement, velocity at the middle of the last step h, mean joint forces of the last
-     * time step and works. The kinetic energy is that of kinetic_energy(). */
+    /** Returns the state of a lane: displacement, velocity at the middle of the last step h, mean joint forces of the
+     * last time step and works. The kinetic energy is that of kinetic_energy(). */
     void read(unsigned int lane, DynamicState &state) const;
 
     double kinetic_energy(unsigned int lane) const; ///< [J]
-
-    double memory() const; ///< [bytes]
 
   private:
     const BatchModel            &model;

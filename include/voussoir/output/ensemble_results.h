@@ -45,7 +45,7 @@ namespace Voussoir
     double needed; ///< also NaN if values have different signs or are zero
 
     /** Computes the statistics. The percentiles are interpolated linearly.
-     * @param values at least one
+     * @param values at least one; if one is not finite, all statistics are NaN
      * @param noise medians below this value have no known_68, known_95 and needed */
     explicit Spread(std::vector<double> values, double noise = 0.);
 
