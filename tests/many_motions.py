@@ -48,13 +48,15 @@ def many_motions(run, target, n=16, factors=(1.,), failed=(), seed=1):
     shutil.copytree(run, target, ignore=lambda _, names: [name for name in names if name in (*GONE, "figures") or name.startswith(("report", "solution"))])
     found = json.loads((run / "summary.json").read_text())
     joints = rows_of(run / "joints.csv") if (run / "joints.csv").exists() else []
-    extremes = {name: one["value"] for name, one in found.pop("extremes").items()}
+    extremes = {name: one["value"] for name, one in found.pop("extremes").items()} | ({"kept_opening": 1e-3} if joints else {})
     spread = [(1., 1.)] + [(chance.lognormvariate(0., .25), chance.lognormvariate(0., .1)) for _ in range(n - 1)]
     rows = []
     for factor in factors:
         for k, (opening, tension) in enumerate(spread, 1):
             row = {"motion": len(rows) + 1, "name": f"seed {k}", "factor": factor, "status": "ok"}
             row |= {name: value * factor * (opening if "opening" in name or "slip" in name else tension) for name, value in extremes.items()}
+            if joints and k % 2:
+                row["kept_opening"] = 0.
             for quantity in ("opening", "slip"):
                 row |= {f"{quantity}_{joint['joint']}": max(float(joint[f"{quantity}_{face}"]) for face in ("upstream", "downstream")) * factor * opening *
                         (chance.uniform(.9, 1.1) if k > 1 else 1.) for joint in joints}

@@ -62,6 +62,14 @@ def largest_difference(row, other):
 def single(directory):
     """The results of a run in the columns of ensemble.csv."""
     row = {"factor": "1", **{name: str(extreme["value"]) for name, extreme in summary(directory)["extremes"].items() if "above_foot" not in name}}
+    kept = [0.]
+    with open(f"{directory}/joint_history.csv") as file:
+        history = list(csv.DictReader(file))
+    for name in (name for name in history[0] if name.startswith("opening_")):
+        ends = [float(line[name]) for line in history]
+        least = min(ends[ends.index(max(ends)):])
+        kept.append(least if max(ends) > 1e-4 and least > .01 * max(ends) else 0.)
+    row["kept_opening"] = str(max(kept))
     with open(f"{directory}/joints.csv") as file:
         joints = [{name: float(value) for name, value in joint.items()} for joint in csv.DictReader(file)]
     for quantity in ("opening", "slip"):

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stresses where tractions are known: on faces, edges and corners, and at joints.
 
+#include <voussoir/base/lanes.h>
 #include <voussoir/dam/dam_loads.h>
 #include <voussoir/dam/face_pressure.h>
 #include <voussoir/dam/load_table.h>
@@ -215,7 +216,7 @@ namespace
     }
     const FaceDirections faces(model);
     double               error[2][FaceDirections::n_stresses] = {};
-    for (const FaceDirections::Node &at : faces.nodes)
+    for (const NodeOnFace &at : faces.nodes)
       if (const auto &x = model.points[at.node];
           std::abs(std::atan2(x[1], -x[0]) - .2) < .19) // not at the ends, whose normals are of one side
       {
@@ -314,7 +315,7 @@ namespace
     for (EnvelopeRecorder *envelope : {&together, &alone})
       envelope->overstress = Overstress(1e6, model.n_nodes());
     std::vector<float>     largest(model.n_nodes(), -1e30f), time(largest);
-    constexpr unsigned int n = 2 * StressInput::n_times + 3;
+    constexpr unsigned int n = 2 * most_lanes + 3;
     for (unsigned int t = 0; t < n; ++t)
     {
       const Unknowns             u = field(model,

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results of many motions in one output directory (Motion/Ensemble): a row per motion, and the fractiles over the motions."""
 
-import re
 from functools import cached_property
 from pathlib import Path
 
@@ -107,18 +106,6 @@ class Ensemble:
             return np.zeros((0, len(names)))
         columns = np.stack([self.motions[name] for name in names], axis=1)[self.rows()]
         return columns[np.isfinite(columns).all(axis=1)]
-
-    def singles(self):
-        """Directories of single motions that have all tables: [(number, path)]."""
-        found = ((re.fullmatch(r"motion-(\d+)", path.name), path) for path in self.directory.glob("motion-*"))
-        return sorted((int(match[1]), path) for match, path in found if match and (path / "summary.json").is_file())
-
-    def label(self, number):
-        """Name and factor of a motion in brackets, as " (seed 3, factor 0.5)"."""
-        for k in np.flatnonzero(self.motions["motion"] == number)[:1]:
-            factor = f", factor {self.motions['factor'][k]:g}" if len(self.factors) > 1 else ""
-            return f" ({self.motions['name'][k]}{factor})"
-        return ""
 
     def known(self):
         """Sentence on how well the median of the largest opening (or of the first extreme) is known."""

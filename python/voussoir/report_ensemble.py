@@ -4,10 +4,8 @@
 from html import escape
 
 from .ensembles import is_number, percent
-from .errors import InputError
-from .report_answers import beginning, closing, failed_checks, strength_of, validity
+from .report_answers import beginning, failed_checks, strength_of, validity
 from .report_tables import AWAY, EXTREMES, exceedances, html_table, items, number, with_unit
-from .runs import Run
 
 
 def band(found, unit):
@@ -33,17 +31,16 @@ def opening(run):
     return text + (f" Slip: {band(found['max_slip'], 'mm').rstrip()}." if "max_slip" in found else "")
 
 
-def closing_of_singles(run):
-    """Whether the joints close again: of the motions with full tables."""
-    texts = []
-    for k, path in run.ensemble.singles():
-        try:
-            single = Run(path)
-            texts.append(f"Motion {k}{escape(run.ensemble.label(k))}: {closing(single, items(single))}")
-        except InputError:
-            continue
-    return " ".join(texts) or ("Unknown: openings over time are stored for chosen motions only, by <code>set Ensemble output</code> in subsection Motion, "
-                               "such as 3; 7.")
+def closing(run):
+    """In how many motions all joints close again."""
+    kept, found = run.ensemble.values("kept_opening"), run.ensemble.extremes.get("kept_opening")
+    if not len(kept) or found is None:
+        return "Unknown."
+    n_open = sum(value > 0. for value in kept)
+    if not n_open:
+        return "<b>Yes.</b> At the crest each joint that opens closes again" + (" in all motions." if len(kept) > 1 else ".")
+    return (f"<b>Not all.</b> In {n_open} of {len(kept)} motions a joint stays open at the crest from its largest opening to the end of the run, "
+            f"at least by {number(max(kept), 'mm')} mm in the worst motion.")
 
 
 def tensions(run):
@@ -103,7 +100,7 @@ def valid(run):
 
 def asked(run):
     """Questions and answers of many motions, as HTML."""
-    return [("How far do the joints open?", opening(run)), *([] if run.tied else [("Do they close again?", closing_of_singles(run))]),
+    return [("How far do the joints open?", opening(run)), *([] if run.tied else [("Do they close again?", closing(run))]),
             ("How large are the stresses?", stresses(run)), ("Which limits are exceeded?", limits(run)), ("Are the results valid?", valid(run))]
 
 

@@ -13,6 +13,7 @@ AWAY, WITH_BASE = "away_from_base", "with the base"
 EXTREMES = {
     "max_opening": ("Opening of a joint", "mm"),
     "max_slip": ("Slip of a joint", "mm"),
+    "kept_opening": ("Opening that a joint keeps to the end", "mm"),
     "max_tension_upstream_away_from_base": ("Tension upstream, away from the base", "MPa"),
     "max_tension_downstream_away_from_base": ("Tension downstream, away from the base", "MPa"),
     "max_compression_away_from_base": ("Compression, away from the base", "MPa"),

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/batch_run.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/lanes.h>
 #include <voussoir/output/assessment.h>
 
 #include <algorithm>
@@ -10,9 +11,6 @@ namespace Voussoir
 {
   namespace
   {
-    /** Number of time steps between two energy balances. */
-    constexpr unsigned int steps_between_balances = 32;
-
     /** Displacements lose digits when many small increments are added [s]. */
     constexpr double shortest_step = 3e-4;
 
@@ -67,7 +65,6 @@ namespace Voussoir
       joints.emplace(run);
       stresses.emplace(run, joints->joints, like);
       stability.emplace(run);
-      stresses->start();
       joints->record();
     }
 
@@ -95,13 +92,12 @@ namespace Voussoir
     /** Adds the state after a step to the results, or sets #failure. */
     void record()
     {
-      const Unknowns v_before = integrator->state().v;
-      const bool is_balanced = (run.step + 1) % steps_between_balances == 0 || run.step + 1 == run.n_steps;
-      integrator->read(is_balanced);
-      run.acceleration =
-          mean_acceleration(v_before, integrator->state().v, run.motion.dt, run.ground_acceleration(run.step),
-                            run.ground_acceleration(run.step + 1), integrator->weight_of_end());
       ++run.step;
+      const bool is_balanced = run.is_due(NeighbourMonitor::interval) || run.is_last(); // as StabilityMonitor
+      if (is_balanced)
+        integrator->read_all();
+      else
+        integrator->read();
       const Energy &energy = integrator->state().energy;
       if (is_balanced)
         imbalance = std::max(imbalance, std::abs(energy.balance(integrator->initial_energy())));
@@ -111,42 +107,62 @@ namespace Voussoir
         failure = "the energy balance has an error of " + number_text(imbalance / reference_energy());
       if (!failure.empty())
         return;
-      stresses->follow();
       joints->record();
       stability->record();
-      if (run.is_last())
-        stresses->gather_on_root();
     }
   };
 
-  BatchRun::BatchRun(const RunState &start, const BatchModel &model, const StressObserver &stresses,
+  BatchRun::BatchRun(const RunState &start, const BatchModel &model, const StressObserver &observer,
                      const std::vector<const GroundMotion *> &motions)
-      : batch(model)
+      : batch(model), envelope_interval(start.scene().output.envelope_interval.samples)
   {
     for (const GroundMotion *motion : motions)
     {
-      lanes.push_back(std::make_unique<Lane>(start, model, stresses, batch, *motion, lanes.size()));
+      lanes.push_back(std::make_unique<Lane>(start, model, observer, batch, *motion, lanes.size()));
       most_steps = std::max(most_steps, lanes.back()->run.n_steps);
     }
+    if (envelope_interval > 0)
+      stresses.emplace(start, observer, batch).record(recorders(), {});
   }
 
   BatchRun::~BatchRun() = default;
 
+  /** Returns the recorders of the motions that last, null for the others. */
+  std::vector<EnvelopeRecorder *> BatchRun::recorders() const
+  {
+    std::vector<EnvelopeRecorder *> result;
+    for (const auto &lane : lanes)
+      result.push_back(lane->is_done() ? nullptr : &lane->stresses->envelope);
+    return result;
+  }
+
   void BatchRun::advance()
   {
-    std::vector<Vector3> before(MotionBatch::n_lanes()), after(MotionBatch::n_lanes());
+    const bool           has_stresses = envelope_interval > 0 && (step + 1) % envelope_interval == 0;
+    std::vector<Vector3> before(n_lanes()), after(n_lanes()), mean(n_lanes());
+    const double         weight = lanes.front()->integrator->weight_of_end();
     for (std::size_t k = 0; k < lanes.size(); ++k)
       if (!lanes[k]->is_done())
       {
         before[k] = lanes[k]->run.motion.sample(step);
         after[k] = lanes[k]->run.motion.sample(step + 1);
+        for (unsigned int c = 0; c < 3; ++c)
+          mean[k][c] = (1. - weight) * before[k][c] + weight * after[k][c];
       }
+    if (has_stresses)
+      stresses->begin_step();
     batch.advance(before, after);
     ++step;
+    if (has_stresses)
+      stresses->record(recorders(), mean);
 #pragma omp parallel for schedule(dynamic)
     for (std::size_t k = 0; k < lanes.size(); ++k)
       if (!lanes[k]->is_done())
+      {
         lanes[k]->follow();
+        if (stresses && lanes[k]->run.is_last())
+          stresses->finish(lanes[k]->stresses->envelope, k);
+      }
   }
 
   MotionResult BatchRun::result(const std::size_t motion) const

@@ -3,6 +3,7 @@
 #include <voussoir/app/run_report.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/lanes.h>
 #include <voussoir/output/archive.h>
 
 #include <algorithm>
@@ -223,7 +224,7 @@ namespace Voussoir
         {state.dam->inertia, state.statics.u, state.statics.constant_load(), state.statics.closed});
     const JointObserver  joints(state);
     const StressObserver stresses(state, joints.joints);
-    lanes = MotionBatch::n_lanes();
+    lanes = n_lanes();
     std::vector<std::vector<std::size_t>> batches;
     for (std::size_t k = 0; k < members.size(); ++k)
       if (!is_done[k])

@@ -57,7 +57,8 @@ namespace Voussoir
       known.push_back(pressed);
       const bool is_wet = face.surface == PhysicalId::upstream && !moving_water.empty();
       water_mass.push_back(is_wet ? moving_water[face.node] : 0.);
-      free_node.push_back(model.equation[face.node]);
+      if (water_mass.back() > 0. && model.equation[face.node] != rigid_ground)
+        wet_faces.push_back({static_cast<unsigned int>(faces.size() - 1), model.equation[face.node]});
       initial.push_back(initial_stress.empty() ? Vector3{} : times(initial_stress[face.node], face.normal));
     }
     for (unsigned int f = 0; f < faces.size(); ++f)
@@ -67,56 +68,87 @@ namespace Voussoir
           edges.push_back({f, other});
   }
 
-  /** The pressure is the added mass times the acceleration normal to the face. */
-  void Tractions::add_moving_water(const Unknowns &acceleration)
+  std::vector<Vector3> Tractions::at(const Unknowns &force, const Unknowns &acceleration,
+                                     const std::vector<double> &pressure) const
   {
-    for (std::size_t f = 0; f < faces.size(); ++f)
-      if (water_mass[f] > 0. && free_node[f] != rigid_ground)
-      {
-        const Vector3 &n = faces[f].normal;
-        const double   pressure = water_mass[f] * dot(get(acceleration, free_node[f]), n);
-        for (unsigned int c = 0; c < 3; ++c)
-          traction[f][c] -= pressure * n[c];
-      }
-  }
-
-  const std::vector<Vector3> &Tractions::at(const Unknowns &force, const Unknowns &acceleration,
-                                            const std::vector<double> &pressure)
-  {
-    traction = known;
+    std::vector<Vector3> traction = known;
+    const auto           press = [&](const std::size_t f, const double by)
+    {
+      for (unsigned int c = 0; c < 3; ++c)
+        traction[f][c] -= by * faces[f].normal[c];
+    };
     for (std::size_t f = 0; f < faces.size() && !pressure.empty(); ++f)
       if (faces[f].surface == PhysicalId::upstream)
+        press(f, pressure[faces[f].node]);
+    for (const WetFace &wet : wet_faces)
+      if (!acceleration.empty())
+        press(wet.face, water_mass[wet.face] * dot(get(acceleration, wet.free_node), faces[wet.face].normal));
+    add_joints<double>([&](const std::size_t k) { return force[k]; }, traction);
+    return traction;
+  }
+
+  void Tractions::at(const unsigned int n_motions, const float *force, const float *acceleration,
+                     float *result) const
+  {
+    constexpr unsigned int              n = 4;
+    typedef float                       Numbers __attribute__((vector_size(4 * n)));
+    typedef Numbers                     AnyNumbers __attribute__((aligned(4), may_alias));
+    std::vector<std::array<Numbers, 3>> traction(faces.size());
+    for (unsigned int first = 0; first < n_motions; first += n)
+    {
+      const auto load = [&](const float *from, const std::size_t k) -> Numbers
+      { return *reinterpret_cast<const AnyNumbers *>(from + n_motions * k + first); };
+      for (std::size_t f = 0; f < faces.size(); ++f)
         for (unsigned int c = 0; c < 3; ++c)
-          traction[f][c] -= pressure[faces[f].node] * faces[f].normal[c];
-    if (!acceleration.empty())
-      add_moving_water(acceleration);
-    const std::vector<Vector3> &of_pair = joints.at(force);
+          traction[f][c] = Numbers{} + static_cast<float>(known[f][c]);
+      for (std::size_t w = 0; acceleration != nullptr && w < wet_faces.size(); ++w)
+      {
+        const std::size_t f = wet_faces[w].face;
+        const Numbers     pressure = static_cast<float>(water_mass[f]) * load(acceleration, w);
+        for (unsigned int c = 0; c < 3; ++c)
+          traction[f][c] -= pressure * static_cast<float>(faces[f].normal[c]);
+      }
+      add_joints<float>([&](const std::size_t k) { return load(force, k); }, traction);
+      for (std::size_t k = 0; k < 3 * faces.size(); ++k)
+        *reinterpret_cast<AnyNumbers *>(result + n_motions * k + first) = traction[k / 3][k % 3];
+    }
+  }
+
+  template <class Scalar, class Force, class T>
+  void Tractions::add_joints(const Force &force, std::vector<std::array<T, 3>> &traction) const
+  {
+    std::vector<std::array<T, 3>> of_pair;
+    joints.find<Scalar>(force, of_pair);
     for (std::size_t f = 0; f < faces.size(); ++f)
       if (pair[f] != rigid_ground)
       {
-        const auto &frame = structure.pairs[pair[f]].frame;
-        Vector3     t = of_pair[pair[f]];
-        t[0] += joint_water[pair[f]];
-        const double side = faces[f].surface > PhysicalId::joint_side_2 ? 1. : -1.;
+        const auto      &frame = structure.pairs[pair[f]].frame;
+        std::array<T, 3> t = of_pair[pair[f]];
+        t[0] += static_cast<Scalar>(joint_water[pair[f]]);
+        const Scalar side = faces[f].surface > PhysicalId::joint_side_2 ? 1. : -1.;
         for (unsigned int c = 0; c < 3; ++c)
-          traction[f][c] = side * (frame[0][c] * t[0] + frame[1][c] * t[1] + frame[2][c] * t[2]);
+          traction[f][c] =
+              side * (Scalar(frame[0][c]) * t[0] + Scalar(frame[1][c]) * t[1] + Scalar(frame[2][c]) * t[2]);
       }
     constexpr unsigned int n_passes = 6; // at corners two nearly orthogonal edges of a joint meet
     for (unsigned int i = 0; i < n_passes; ++i)
       for (const Edge &edge : edges)
-        meet(edge);
-    result.resize(traction.size());
+        meet<Scalar>(edge, traction);
     for (std::size_t f = 0; f < traction.size(); ++f)
-      result[f] = traction[f] - initial[f];
-    return result;
+      for (unsigned int c = 0; c < 3; ++c)
+        traction[f][c] -= static_cast<Scalar>(initial[f][c]);
   }
 
   /** Equal shear stresses at an edge, t_1 n_2 = t_2 n_1: changes the traction of the joint face. */
-  void Tractions::meet(const Edge &edge)
+  template <class Scalar, class T>
+  void Tractions::meet(const Edge &edge, std::vector<std::array<T, 3>> &traction) const
   {
     const Vector3 &n = faces[edge.joint].normal, &m = faces[edge.other].normal;
-    const double   miss = dot(traction[edge.other], n) - dot(traction[edge.joint], m), cosine = dot(n, m);
+    const double   cosine = dot(n, m);
+    T              miss = {};
     for (unsigned int c = 0; c < 3; ++c)
-      traction[edge.joint][c] += miss / (1. - cosine * cosine) * (m[c] - cosine * n[c]);
+      miss += Scalar(n[c]) * traction[edge.other][c] - Scalar(m[c]) * traction[edge.joint][c];
+    for (unsigned int c = 0; c < 3; ++c)
+      traction[edge.joint][c] += miss * static_cast<Scalar>((m[c] - cosine * n[c]) / (1. - cosine * cosine));
   }
 } // namespace Voussoir

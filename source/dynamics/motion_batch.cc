@@ -1,52 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/lanes.h>
+#include <voussoir/base/simd.h>
 #include <voussoir/dynamics/motion_batch.h>
 #include <voussoir/joints/pairs.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
-
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__)
-#include <immintrin.h>
-#define VOUSSOIR_BATCH_OF_16
-#endif
 
 namespace Voussoir
 {
   namespace
   {
-#ifdef VOUSSOIR_BATCH_OF_16
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wpsabi"
-#pragma GCC            push_options
-#pragma GCC            target("avx512f,avx512dq,avx512vl,avx512bw,avx2,fma")
-    namespace Lanes16
+    namespace BatchKernels
     {
-      constexpr int lanes = 16;
-#define VOUSSOIR_SQUARE_ROOT(a) (Vector) _mm512_maskz_sqrt_ps(0xffff, (__m512)a)
-#include "motion_batch_kernel.h"
-    } // namespace Lanes16
-#pragma GCC pop_options
-#pragma GCC push_options
-#pragma GCC target("avx2,fma")
-    namespace Lanes8
-    {
-      constexpr int lanes = 8;
-#define VOUSSOIR_SQUARE_ROOT(a) (Vector) _mm256_sqrt_ps((__m256)a)
-#include "motion_batch_kernel.h"
-    } // namespace Lanes8
-#pragma GCC pop_options
-#endif
-    namespace Lanes4
-    {
-      constexpr int lanes = 4;
-#define VOUSSOIR_SQUARE_ROOT(a) (Vector{std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2]), std::sqrt(a[3])})
-#include "motion_batch_kernel.h"
-    } // namespace Lanes4
-#ifdef VOUSSOIR_BATCH_OF_16
-#pragma GCC diagnostic pop
-#endif
+#define VOUSSOIR_KERNEL <dynamics/motion_batch_kernel.h>
+#include <voussoir/base/for_lanes.h>
+#undef VOUSSOIR_KERNEL
+    } // namespace BatchKernels
 
     /** Returns the kind of a joint law, or throws an internal error; see BatchModel::why_not(). */
     BatchPair::Kind kind_of(const JointLaw &law)
@@ -172,6 +143,7 @@ namespace Voussoir
     const Vector3 &n = pair.frame[0], &a = pair.frame[1], &b = pair.frame[2];
     const double   angle = .5 * std::atan2(2. * of_pair(a, b), of_pair(a, a) - of_pair(b, b));
     Vector3        axes[3] = {n, {}, {}};
+    result.cosine = std::cos(angle), result.sine = std::sin(angle);
     for (unsigned int c = 0; c < 3; ++c)
     {
       axes[1][c] = std::cos(angle) * a[c] + std::sin(angle) * b[c];
@@ -196,7 +168,11 @@ namespace Voussoir
     result.kind = kind_of(law);
     result.friction_of = std::max(0., law.flat_friction());
     for (const unsigned int side : {0, 1})
+    {
       result.node[side] = nodes[side] == rigid_ground ? -1 : static_cast<int>(nodes[side]);
+      if (nodes[side] != rigid_ground)
+        nodes_of_pairs.push_back(nodes[side]);
+    }
     result.H_nn = H[0], result.H_1n = H[3], result.H_2n = H[6], result.H_11 = H[4], result.H_22 = H[8];
     const double values[6] = {K[0], K[1], K[2], K[4], K[5], K[8]};
     std::copy(values, values + 6, result.inverse);
@@ -220,20 +196,6 @@ namespace Voussoir
     return result;
   }
 
-  unsigned int MotionBatch::n_lanes()
-  {
-    const char        *wanted = std::getenv("VOUSSOIR_LANES");
-    const unsigned int most = wanted != nullptr ? std::atoi(wanted) : 16;
-#ifdef VOUSSOIR_BATCH_OF_16
-    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-      return 16;
-    if (most >= 8 && __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
-      return 8;
-#endif
-    return 4;
-  }
-
   MotionBatch::MotionBatch(const BatchModel &model)
       : model(model), view(model.view()), lanes(n_lanes()), u(3 * view.n_nodes * lanes), v(u), w(u), f(u),
         d(view.n_terms * 3 * view.n_nodes * lanes), gap(3 * view.n_pairs * lanes), moved(gap), impulse(gap)
@@ -246,6 +208,8 @@ namespace Voussoir
 
   void MotionBatch::advance(const std::vector<Vector3> &before, const std::vector<Vector3> &after)
   {
+    using namespace BatchKernels;
+    const auto kernel = VOUSSOIR_FOR_LANES(advance_any);
     BatchState state = {u.data(),   v.data(),     w.data(),       f.data(), d.data(),
                         gap.data(), moved.data(), impulse.data(), works,    {}};
     std::fill(impulse.begin(), impulse.end(), 0.f);
@@ -255,43 +219,58 @@ namespace Voussoir
       for (unsigned int lane = 0; lane < lanes; ++lane)
         for (unsigned int c = 0; c < 3; ++c)
           state.ground[c * lanes + lane] = (1. - share) * before[lane][c] + share * after[lane][c];
-#ifdef VOUSSOIR_BATCH_OF_16
-      if (lanes == 16)
-        Lanes16::advance_any(view, state);
-      else if (lanes == 8)
-        Lanes8::advance_any(view, state);
-      else
-#endif
-        Lanes4::advance_any(view, state);
+      kernel(view, state);
     }
-    time += model.dt;
+    now += model.dt;
   }
 
-  void MotionBatch::read(const unsigned int lane, DynamicState &state) const
+  void MotionBatch::read(const unsigned int lane, DynamicState &state,
+                         const std::vector<unsigned int> *only) const
   {
-    state.time = time;
-    state.u = model.u_static;
-    state.v.resize(state.u.size());
-    for (std::size_t k = 0; k < state.u.size(); ++k)
+    const auto read_component = [&](const std::size_t k)
     {
-      state.u[k] += u[k * lanes + lane];
+      state.u[k] = model.u_static[k] + u[k * lanes + lane];
       state.v[k] = v[k * lanes + lane];
-    }
+    };
+    state.u.resize(model.u_static.size());
+    state.v.resize(state.u.size());
+    if (only != nullptr)
+      for (const unsigned int node : *only)
+        for (unsigned int c = 0; c < 3; ++c)
+          read_component(3 * std::size_t(node) + c);
+    for (std::size_t k = 0; only == nullptr && k < state.u.size(); ++k)
+      read_component(k);
     state.force.resize(3 * view.n_pairs);
     for (std::size_t q = 0; q < view.n_pairs; ++q)
     {
-      const float *axes = view.pairs[q].frame;
-      Vector3      force{};
+      const BatchPair &pair = view.pairs[q];
+      double           f[3];
       for (unsigned int i = 0; i < 3; ++i)
-        for (unsigned int c = 0; c < 3; ++c)
-          force[c] += axes[3 * i + c] * impulse[(3 * q + i) * lanes + lane] / model.n_steps;
-      for (unsigned int i = 0; i < 3; ++i)
-        state.force[3 * q + i] = dot(model.structure.pairs[q].frame[i], force);
+        f[i] = impulse[(3 * q + i) * lanes + lane] / model.n_steps;
+      set(state.force, q,
+          {{f[0], pair.cosine * f[1] - pair.sine * f[2], pair.sine * f[1] + pair.cosine * f[2]}});
     }
+    state.time = now;
     state.energy.input = works[0][lane];
     state.energy.strain = model.static_strain + works[1][lane];
     state.energy.impact = works[2][lane];
     state.energy.friction = works[3][lane];
+  }
+
+  void MotionBatch::find_joint_forces(float *force) const
+  {
+    const float share = 1.f / model.n_steps;
+    for (std::size_t q = 0; q < view.n_pairs; ++q, force += 3 * lanes)
+    {
+      const float *f = impulse.data() + 3 * lanes * q, c = share * view.pairs[q].cosine,
+                  s = share * view.pairs[q].sine;
+      for (unsigned int lane = 0; lane < lanes; ++lane)
+      {
+        force[lane] = share * f[lane];
+        force[lanes + lane] = c * f[lanes + lane] - s * f[2 * lanes + lane];
+        force[2 * lanes + lane] = s * f[lanes + lane] + c * f[2 * lanes + lane];
+      }
+    }
   }
 
   double MotionBatch::kinetic_energy(const unsigned int lane) const
@@ -319,18 +298,26 @@ namespace Voussoir
     first = now.energy;
   }
 
-  void LaneIntegrator::read(const bool with_energy)
+  void LaneIntegrator::read()
+  {
+    batch.read(lane, now, &model.nodes_of_pairs);
+    read_forces();
+  }
+
+  void LaneIntegrator::read_all()
   {
     batch.read(lane, now);
+    now.energy.kinetic = batch.kinetic_energy(lane);
+    update_largest();
+    read_forces();
+  }
+
+  void LaneIntegrator::read_forces()
+  {
     for (std::size_t k = 0; k < impulse.size(); ++k)
       impulse[k] = model.dt * now.force[k];
     for (std::size_t p = 0; p < states.size(); ++p)
       states[p] = now.force[3 * p] > 0. ? PairState::stick : PairState::open;
-    if (with_energy)
-    {
-      now.energy.kinetic = batch.kinetic_energy(lane);
-      update_largest();
-    }
   }
 
   ContactResult LaneIntegrator::advance(const Unknowns &, const Vector3 &)

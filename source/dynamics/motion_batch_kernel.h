@@ -1,33 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kernel of MotionBatch for vectors of `lanes` floats. motion_batch.cc includes this file for each set of instructions,
-// in a namespace with the constant `lanes`, and with the macro VOUSSOIR_SQUARE_ROOT.
-
-using Vector = float __attribute__((vector_size(4 * lanes), may_alias));
-using Mask = int __attribute__((vector_size(4 * lanes)));
-
-#define VOUSSOIR_INLINE inline __attribute__((always_inline))
-
-VOUSSOIR_INLINE Vector larger(const Vector a, const Vector b)
-{
-  return a > b ? a : b;
-}
-
-VOUSSOIR_INLINE Vector smaller(const Vector a, const Vector b)
-{
-  return a < b ? a : b;
-}
+// Kernel of MotionBatch; see base/for_lanes.h.
 
 VOUSSOIR_INLINE Vector square_root(const Vector a)
 {
   return VOUSSOIR_SQUARE_ROOT(a);
-}
-
-VOUSSOIR_INLINE bool any(const Mask mask)
-{
-  int sum = 0;
-  for (int lane = 0; lane < lanes; ++lane)
-    sum |= mask[lane];
-  return sum != 0;
 }
 
 VOUSSOIR_INLINE void add_to(double *sums, const Vector x, const double factor)
@@ -286,6 +262,3 @@ inline void advance_any(const BatchView &m, const BatchState &state)
     return advance<4>(m, state);
   }
 }
-
-#undef VOUSSOIR_INLINE
-#undef VOUSSOIR_SQUARE_ROOT

@@ -6,7 +6,6 @@
 #include <voussoir/solid/solid_grid.h>
 #include <voussoir/solid/solid_model.h>
 
-#include <algorithm>
 #include <map>
 
 namespace Voussoir
@@ -54,8 +53,7 @@ namespace Voussoir
     }
   } // namespace
 
-  JointTractions::JointTractions(const SolidModel &model, const Structure &structure)
-      : structure(structure), first(structure.pairs.size()), traction(first.size())
+  JointTractions::JointTractions(const SolidModel &model, const Structure &structure) : structure(structure)
   {
     for (const auto &row : face_mass(model, structure.pairs))
     {
@@ -66,23 +64,5 @@ namespace Voussoir
       for (const auto &entry : row)
         mean.back().emplace_back(entry.first, entry.second / sum);
     }
-  }
-
-  const std::vector<Vector3> &JointTractions::at(const Unknowns &force)
-  {
-    for (std::size_t p = 0; p < mean.size(); ++p)
-      for (unsigned int c = 0; c < 3; ++c)
-        traction[p][c] = force[3 * p + c] / structure.pairs[p].area;
-    for (std::size_t p = 0; p < mean.size(); ++p)
-      first[p] = traction[p][0];
-    for (std::size_t p = 0; p < mean.size(); ++p)
-      if (const double twice = 2. * first[p]; twice != 0.)
-      {
-        double around = 0.;
-        for (const auto &other : mean[p])
-          around += other.second * first[other.first];
-        traction[p][0] = std::clamp(twice - around, std::min(0., twice), std::max(0., twice));
-      }
-    return traction;
   }
 } // namespace Voussoir

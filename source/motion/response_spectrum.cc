@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/simd.h>
 #include <voussoir/motion/response_spectrum.h>
 
 #include <algorithm>
@@ -34,14 +35,24 @@ namespace Voussoir
     finish = forced(0., 1. / h);
   }
 
-  /** Computes the peaks of @p n oscillators with the same number of substeps. Independent sums for several
-   * oscillators keep the processor busy. */
-  template <unsigned int n>
-  void Oscillator::find_peaks(const Oscillator *oscillator, const std::vector<double> &acceleration,
-                              Peak *peak)
+  namespace
   {
-    double A[4][n], S[2][n], F[2][n], u[n] = {}, v[n] = {}, largest[n] = {};
-    for (unsigned int i = 0; i < n; ++i)
+    using FourValues = double __attribute__((vector_size(32)));
+
+    VOUSSOIR_INLINE FourValues absolute(const FourValues &x)
+    {
+      return x < 0. ? -x : x;
+    }
+  } // namespace
+
+  /** Computes the peaks of four oscillators with the same number of substeps. Each has the values of peak(). */
+  VOUSSOIR_WITH_AVX void Oscillator::find_four_peaks(const Oscillator          *oscillator,
+                                                     const std::vector<double> &acceleration, Peak *peak)
+  {
+    FourValues A[4], S[2], F[2], stiffness, u = {}, v = {}, largest = {}, value = {}, at = {}, sampled = {};
+    for (unsigned int i = 0; i < 4; ++i)
+    {
+      stiffness[i] = oscillator[i].stiffness;
       for (unsigned int c = 0; c < 2; ++c)
       {
         A[2 * c][i] = oscillator[i].a[c][0];
@@ -49,38 +60,42 @@ namespace Voussoir
         S[c][i] = oscillator[i].start[c];
         F[c][i] = oscillator[i].finish[c];
       }
+    }
     const std::size_t n_substeps = oscillator[0].n_substeps;
-    std::size_t       substep = 0;
+    double            substep = 0.;
     for (std::size_t k = 0; k + 1 < acceleration.size(); ++k)
     {
       const double increment = (acceleration[k + 1] - acceleration[k]) / n_substeps;
       for (std::size_t r = 0; r < n_substeps; ++r)
       {
-        const double before = acceleration[k] + r * increment, after = before + increment;
-        for (unsigned int i = 0; i < n; ++i)
-        {
-          const double u_next = A[0][i] * u[i] + A[1][i] * v[i] + S[0][i] * before + F[0][i] * after;
-          v[i] = A[2][i] * u[i] + A[3][i] * v[i] + S[1][i] * before + F[1][i] * after;
-          u[i] = u_next;
-        }
-        ++substep;
-        for (unsigned int i = 0; i < n; ++i)
-          if (std::abs(u[i]) > largest[i])
-          {
-            largest[i] = std::abs(u[i]);
-            peak[i].value = oscillator[i].stiffness * u[i];
-            peak[i].substep = substep;
-          }
+        const double     before = acceleration[k] + r * increment, after = before + increment;
+        const FourValues u_next = A[0] * u + A[1] * v + S[0] * before + F[0] * after;
+        v = A[2] * u + A[3] * v + S[1] * before + F[1] * after;
+        u = u_next;
+        substep += 1.;
+        const auto is_larger = absolute(u) > largest;
+        largest = is_larger ? absolute(u) : largest;
+        value = is_larger ? stiffness * u : value;
+        at = is_larger ? FourValues{} + substep : at;
       }
-      for (unsigned int i = 0; i < n; ++i)
-        peak[i].sampled = std::max(peak[i].sampled, oscillator[i].stiffness * std::abs(u[i]));
+      const FourValues now = stiffness * absolute(u);
+      sampled = now > sampled ? now : sampled;
     }
+    for (unsigned int i = 0; i < 4; ++i)
+      peak[i] = {value[i], static_cast<std::size_t>(at[i]), sampled[i]};
   }
 
   Oscillator::Peak Oscillator::peak(const std::vector<double> &acceleration) const
   {
-    Peak peak;
-    find_peaks<1>(this, acceleration, &peak);
+    Peak                      peak;
+    const std::vector<double> all = response(acceleration);
+    for (std::size_t j = 0; j < all.size(); ++j)
+    {
+      if (std::abs(all[j]) > std::abs(peak.value))
+        peak = {all[j], j + 1, peak.sampled};
+      if ((j + 1) % n_substeps == 0)
+        peak.sampled = std::max(peak.sampled, std::abs(all[j]));
+    }
     return peak;
   }
 
@@ -95,10 +110,10 @@ namespace Voussoir
       while (end < peaks.size() && end < i + n && oscillators[end].n_substeps == oscillators[i].n_substeps)
         ++end;
       if (end == i + n)
-        find_peaks<n>(&oscillators[i], acceleration, &peaks[i]);
+        find_four_peaks(&oscillators[i], acceleration, &peaks[i]);
       else
         for (std::size_t k = i; k < end; ++k)
-          find_peaks<1>(&oscillators[k], acceleration, &peaks[k]);
+          peaks[k] = oscillators[k].peak(acceleration);
       i = end;
     }
     return peaks;
@@ -108,6 +123,7 @@ namespace Voussoir
   {
     std::vector<double> result;
     double              u = 0., v = 0.;
+    result.reserve(acceleration.size() * n_substeps);
     for (std::size_t k = 0; k + 1 < acceleration.size(); ++k)
       for (std::size_t r = 0; r < n_substeps; ++r)
       {

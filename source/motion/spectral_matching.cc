@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/simd.h>
 #include <voussoir/motion/response_spectrum.h>
 #include <voussoir/motion/spectral_matching.h>
 
@@ -11,13 +12,6 @@ namespace Voussoir
   namespace
   {
     using Vector = std::vector<double>;
-
-#if defined(__x86_64__) && defined(__GNUC__)
-    // AVX without fused operations: the results do not depend on the processor.
-#define VOUSSOIR_WITH_AVX __attribute__((target_clones("avx", "default")))
-#else
-#define VOUSSOIR_WITH_AVX
-#endif
 
     using Four = double __attribute__((vector_size(32), aligned(8), may_alias)); ///< four independent sums
 

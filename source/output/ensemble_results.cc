@@ -70,6 +70,8 @@ namespace Voussoir
       for (const auto &[name, extreme] : extremes)
         if (name.find("above_foot") == std::string::npos)
           result.extremes.emplace_back(name, extreme.value);
+    if (!joints.joints.largest.empty())
+      result.extremes.emplace_back("kept_opening", joints.kept_opening());
     for (const JointRecorder::Largest &joint : joints.joints.largest)
     {
       result.openings.push_back(joint.opening());
@@ -127,7 +129,7 @@ namespace Voussoir
   {
     bool is_length(const std::string &extreme)
     {
-      return extreme == "max_opening" || extreme == "max_slip";
+      return extreme == "max_opening" || extreme == "max_slip" || extreme == "kept_opening";
     }
 
     /** Returns the statistics of an extreme. @p k: its index. */

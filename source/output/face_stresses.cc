@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 
 namespace Voussoir
 {
@@ -28,20 +29,12 @@ namespace Voussoir
       return result;
     }
 
-    FaceDirections::Node directions_at(const unsigned int node, const int surface, const Vector3 &area)
+    NodeOnFace directions_at(const unsigned int node, const int surface, const Vector3 &area)
     {
       const Vector3 n = unit(area);
       // z x n; a face is horizontal if its slope is below 1e-6.
       const Vector3 arch = length(n[0], n[1]) > 1e-6 ? unit({{-n[1], n[0], 0.}}) : Vector3{{0., 1., 0.}};
       return {node, surface, factors(arch), factors(cross(n, arch))};
-    }
-
-    float product(const Stress &factor, const Stress &s)
-    {
-      float sum = 0.f;
-      for (unsigned int c = 0; c < 6; ++c)
-        sum += factor[c] * s[c];
-      return sum;
     }
   } // namespace
 
@@ -49,11 +42,6 @@ namespace Voussoir
   {
     constexpr const char *names[n_stresses] = {"arch", "cantilever", "vertical"};
     return names[k];
-  }
-
-  std::array<float, FaceDirections::n_stresses> FaceDirections::Node::stresses(const Stress &s) const
-  {
-    return {{product(arch, s), product(cantilever, s), s[2]}};
   }
 
   FaceDirections::FaceDirections(const SolidModel &model)
@@ -75,14 +63,11 @@ namespace Voussoir
           nodes.push_back(directions_at(node, surface, sum));
     }
     std::stable_sort(nodes.begin(), nodes.end(),
-                     [](const Node &a, const Node &b) { return a.node < b.node; });
-  }
-
-  std::size_t FaceDirections::first_of(const unsigned int node) const
-  {
-    return std::lower_bound(nodes.begin(), nodes.end(), node,
-                            [](const Node &n, const unsigned int i) { return n.node < i; }) -
-           nodes.begin();
+                     [](const NodeOnFace &a, const NodeOnFace &b) { return a.node < b.node; });
+    first.assign(model.n_nodes() + 1, 0);
+    for (const NodeOnFace &at : nodes)
+      ++first[at.node + 1];
+    std::partial_sum(first.begin(), first.end(), first.begin());
   }
 
   FaceEnvelope::FaceEnvelope(const SolidModel &model)
@@ -92,14 +77,13 @@ namespace Voussoir
       extremes[e] = e % 2 == 0 ? -1e30f : 1e30f;
   }
 
-  void FaceEnvelope::record(const double time, const std::vector<Stress> &stress, const std::size_t first,
-                            const std::size_t last)
+  void FaceEnvelope::record(const std::size_t node, const double time, const Stress &stress)
   {
-    const std::size_t begin = directions.first_of(first), end = directions.first_of(last);
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = begin; i < end; ++i)
+    if (directions.nodes.empty())
+      return;
+    for (std::size_t i = directions.first[node]; i < directions.first[node + 1]; ++i)
     {
-      const auto now = directions.nodes[i].stresses(stress[directions.nodes[i].node]);
+      const auto now = directions.nodes[i].stresses(stress);
       for (unsigned int k = 0; k < FaceDirections::n_stresses; ++k)
       {
         if (const std::size_t e = index(i, k, true); now[k] > extremes[e])
@@ -110,10 +94,27 @@ namespace Voussoir
     }
   }
 
+  void FaceEnvelope::show(StressView &view) const
+  {
+    view.on_face = directions.nodes.data();
+    view.first_on_face = directions.nodes.empty() ? nullptr : directions.first.data();
+    view.of_faces = extremes.data();
+  }
+
+  void FaceEnvelope::take(const std::vector<float> &all_extremes, const std::vector<float> &all_times,
+                          const std::size_t n_columns, const std::size_t column)
+  {
+    for (std::size_t e = 0; e < extremes.size(); ++e)
+    {
+      extremes[e] = all_extremes[n_columns * e + column];
+      times[e] = all_times[n_columns * e + column];
+    }
+  }
+
   void FaceEnvelope::gather(std::vector<std::size_t> begin)
   {
     for (std::size_t &i : begin)
-      i = n_extremes * directions.first_of(i);
+      i = directions.nodes.empty() ? 0 : n_extremes * directions.first[i];
     Ranks::gather(extremes.data(), begin);
     Ranks::gather(times.data(), begin);
   }

@@ -81,8 +81,7 @@ namespace Voussoir
   {
     Extreme result{std::numeric_limits<double>::quiet_NaN()};
     for (std::size_t i = 0; i < envelope.directions.nodes.size(); ++i)
-      if (const FaceDirections::Node &at = envelope.directions.nodes[i];
-          at.surface == surface && !near_base[at.node])
+      if (const NodeOnFace &at = envelope.directions.nodes[i]; at.surface == surface && !near_base[at.node])
         if (const auto [x, time] = envelope.extreme(i, k, largest);
             !(largest ? x <= result.value : x >= result.value))
           result = extreme_at(model, at.node, x, time);

@@ -47,7 +47,7 @@ namespace Voussoir
     for (unsigned int k = 0; k < 2; ++k) // the vertical stress is stress_zz
     {
       fields.push_back({std::string(FaceDirections::name(k)) + "_stress", std::vector<float>(s.size(), 0.f)});
-      for (const FaceDirections::Node &at : stresses.envelope.faces.directions.nodes)
+      for (const NodeOnFace &at : stresses.envelope.faces.directions.nodes)
         fields.back().values[at.node] = at.stresses(s[at.node])[k];
     }
   }

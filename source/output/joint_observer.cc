@@ -83,6 +83,25 @@ namespace Voussoir
     }
   }
 
+  double JointObserver::kept_opening() const
+  {
+    constexpr double opens = 1e-4, closed = .01; // [m]; of the largest opening
+    double           kept = 0.;
+    for (std::size_t j = 0; j < joints.largest.size(); ++j)
+      for (const std::size_t column : {4 * j + 1, 4 * j + 2}) // openings of both ends of the crest
+      {
+        double largest = 0., least = 0.;
+        for (const std::vector<double> &row : joints.history.rows)
+          if (row[column] > largest)
+            largest = least = row[column];
+          else
+            least = std::min(least, row[column]);
+        if (largest > opens && least > closed * largest && !run.dam->layout.joints[j].is_lift())
+          kept = std::max(kept, least);
+      }
+    return kept;
+  }
+
   Json JointObserver::json_of_parts() const
   {
     Json all;

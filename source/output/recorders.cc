@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/lanes.h>
 #include <voussoir/output/recorders.h>
 
 #include <algorithm>
@@ -177,41 +178,60 @@ namespace Voussoir
 
   void EnvelopeRecorder::record(const double time, const Unknowns &u, const std::vector<Vector3> &tractions)
   {
-    times[input.n] = time;
-    input.add(u, tractions);
-    if (input.n == StressInput::n_times)
+    const unsigned int lanes = n_lanes(), t = times.size();
+    displacements.resize(lanes * u.size());
+    for (std::size_t k = 0; k < u.size(); ++k)
+      displacements[lanes * k + t] = static_cast<float>(u[k]);
+    face_tractions.resize(std::max(face_tractions.size(), 3 * lanes * tractions.size()));
+    for (std::size_t k = 0; k < face_tractions.size() / lanes; ++k)
+      face_tractions[lanes * k + t] = tractions.empty() ? 0.f : static_cast<float>(tractions[k / 3][k % 3]);
+    times.push_back(time);
+    if (times.size() == lanes)
       evaluate();
   }
 
   void EnvelopeRecorder::evaluate()
   {
-    if (input.n == 0)
-      return;
-    recovery.apply(input, begin[Ranks::rank()], begin[Ranks::rank() + 1], stresses);
-    for (unsigned int t = 0; t < input.n; ++t)
-      update(times[t], stresses[t]);
-    input.n = 0;
+    StressView view = recovery.view();
+    view.u = displacements.data();
+    view.traction = face_tractions.empty() ? nullptr : face_tractions.data();
+    view.added = initial.data();
+    view.maximum = maximum.data();
+    view.minimum = minimum.data();
+    view.lowest = overstress.lowest_level();
+    faces.show(view);
+    const unsigned int  lanes = n_lanes();
+    const StressKernel  kernel = stress_kernel();
+    std::vector<double> intervals;
+    for (const double time : times)
+      intervals.push_back(overstress.begin(time));
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = begin[Ranks::rank()]; i < begin[Ranks::rank() + 1]; ++i)
+    {
+      float              all[6 * most_lanes];
+      const unsigned int columns = times.empty() ? 0 : kernel(view, i, all);
+      for (std::size_t t = 0; columns != 0 && t < times.size(); ++t)
+        if ((columns >> t & 1u) != 0)
+        {
+          const Stress stress = column_of(all, lanes, t);
+          faces.record(i, times[t], stress);
+          update(i, times[t], intervals[t], stress);
+        }
+    }
+    times.clear();
   }
 
-  void EnvelopeRecorder::update(const double time, std::vector<Stress> &stress)
+  void EnvelopeRecorder::update(const std::size_t i, const double time, const double interval,
+                                const Stress &stress)
   {
-    const std::size_t first = begin[Ranks::rank()], last = begin[Ranks::rank() + 1];
-    overstress.begin(time);
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = first; i < last; ++i)
-    {
-      for (unsigned int c = 0; c < 6; ++c)
-        stress[i][c] += initial[i][c];
-      if (!exceeds(stress[i], std::min(maximum[i], overstress.lowest_level()), minimum[i]))
-        continue;
-      const auto p = principal_stresses(stress[i]);
-      overstress.add(i, p[0]);
-      if (p[0] > maximum[i])
-        maximum[i] = p[0], time_of_maximum[i] = static_cast<float>(time);
-      if (p[1] < minimum[i])
-        minimum[i] = p[1], time_of_minimum[i] = static_cast<float>(time);
-    }
-    faces.record(time, stress, first, last);
+    if (!exceeds(stress, std::min(maximum[i], overstress.lowest_level()), minimum[i]))
+      return;
+    const auto p = principal_stresses(stress);
+    overstress.add(i, p[0], interval);
+    if (p[0] > maximum[i])
+      maximum[i] = p[0], time_of_maximum[i] = static_cast<float>(time);
+    if (p[1] < minimum[i])
+      minimum[i] = p[1], time_of_minimum[i] = static_cast<float>(time);
   }
 
   void EnvelopeRecorder::gather()

@@ -55,7 +55,7 @@ namespace Voussoir
     seconds += watch.seconds();
   }
 
-  std::vector<Vector3> StressObserver::tractions_now()
+  std::vector<Vector3> StressObserver::tractions_now() const
   {
     if (!known_tractions())
       return {};
@@ -64,10 +64,10 @@ namespace Voussoir
                         water ? water->at_dam(water->pressure()) : std::vector<double>());
   }
 
-  std::vector<Stress> StressObserver::now()
+  std::vector<Stress> StressObserver::stress_of(const Unknowns &u, const std::vector<Vector3> &by_faces) const
   {
     std::vector<Stress> result;
-    recovery->apply(run.statics.elastic(run.integrator->state().u), tractions_now(), result);
+    recovery->apply(u, by_faces, result);
     for (std::size_t i = 0; i < result.size(); ++i)
       for (unsigned int c = 0; c < 6; ++c)
         result[i][c] += run.dam->initial_stress[i][c];

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/lanes.h>
 #include <voussoir/base/simd.h>
 #include <voussoir/solid/cell_elasticity.h>
 #include <voussoir/solid/nodal_mean.h>
@@ -75,6 +76,22 @@ namespace Voussoir
     const double r = std::clamp(of.determinant(s) / (2. * p * p * p), -1., 1.);
     return {{float(mean + 2. * p * cosine_of_third(std::sqrt(.5 + .5 * r))),
              float(mean - 2. * p * cosine_of_third(std::sqrt(.5 - .5 * r)))}};
+  }
+
+  namespace
+  {
+    float product(const Stress &factor, const Stress &s)
+    {
+      float sum = 0.f;
+      for (unsigned int c = 0; c < 6; ++c)
+        sum += factor[c] * s[c];
+      return sum;
+    }
+  } // namespace
+
+  std::array<float, NodeOnFace::n_stresses> NodeOnFace::stresses(const Stress &s) const
+  {
+    return {{product(arch, s), product(cantilever, s), s[2]}};
   }
 
   StressRecovery::StressRecovery(const SolidModel &model, const std::vector<Material> &materials,
@@ -161,7 +178,8 @@ namespace Voussoir
   /** Replaces the rows of nodes with known tractions by the result of TractionCondition. */
   void StressRecovery::condition(const std::vector<NodeFace> &faces, const NodalMean &mean)
   {
-    for (std::size_t f = 0; f < faces.size(); f = node_of_face.size())
+    face.assign(start.size(), 0);
+    for (std::size_t f = 0; f < faces.size(); f = of_traction.size())
     {
       const unsigned int   node = faces[f].node;
       std::vector<Vector3> normals;
@@ -184,95 +202,61 @@ namespace Voussoir
       {
         of_traction.emplace_back();
         std::copy(block.begin(), block.end(), of_traction.back().begin());
-        node_of_face.push_back(node);
       }
+      face[node + 1] = of_traction.size();
     }
-  }
-
-  void StressInput::add(const Unknowns &at_free_nodes, const std::vector<Vector3> &of_faces)
-  {
-    u.resize(n_times * at_free_nodes.size(), 0.f);
-    for (std::size_t k = 0; k < at_free_nodes.size(); ++k)
-      u[n_times * k + n] = static_cast<float>(at_free_nodes[k]);
-    tractions[n++] = of_faces;
+    for (std::size_t i = 1; i < face.size(); ++i)
+      face[i] = std::max(face[i], face[i - 1]);
   }
 
   namespace
   {
-    typedef float Times __attribute__((vector_size(4 * StressInput::n_times)));
-    typedef Times UnalignedTimes __attribute__((aligned(4), may_alias));
-
-    /** Computes the stress of a node, six components at all times: the sum of @p n blocks times the displacements
-     * @p u of the nodes @p column. */
-    VOUSSOIR_INLINE void sum_blocks(const std::array<float, 18> *block, const unsigned int *column,
-                                    const std::size_t n, const float *u, float *stress)
+    namespace StressKernels
     {
-      Times xx{}, yy{}, zz{}, xy{}, yz{}, zx{}; // the compiler would keep an array in memory
-      for (std::size_t k = 0; k < n; ++k)
-      {
-        const UnalignedTimes *at =
-            reinterpret_cast<const UnalignedTimes *>(u + 3 * StressInput::n_times * std::size_t(column[k]));
-        const Times  x = at[0], y = at[1], z = at[2];
-        const float *value = block[k].data();
-        xx += value[0] * x + value[1] * y + value[2] * z;
-        yy += value[3] * x + value[4] * y + value[5] * z;
-        zz += value[6] * x + value[7] * y + value[8] * z;
-        xy += value[9] * x + value[10] * y + value[11] * z;
-        yz += value[12] * x + value[13] * y + value[14] * z;
-        zx += value[15] * x + value[16] * y + value[17] * z;
-      }
-      UnalignedTimes *result = reinterpret_cast<UnalignedTimes *>(stress);
-      result[0] = xx, result[1] = yy, result[2] = zz, result[3] = xy, result[4] = yz, result[5] = zx;
-    }
+#define VOUSSOIR_KERNEL <solid/stress_kernel.h>
+#include <voussoir/base/for_lanes.h>
+#undef VOUSSOIR_KERNEL
+    } // namespace StressKernels
+  }   // namespace
 
-    VOUSSOIR_AVX2 void sum_wide(const std::array<float, 18> *block, const unsigned int *column,
-                                const std::size_t n, const float *u, float *stress)
-    {
-      sum_blocks(block, column, n, u, stress);
-    }
-
-    void sum_plain(const std::array<float, 18> *block, const unsigned int *column, const std::size_t n,
-                   const float *u, float *stress)
-    {
-      sum_blocks(block, column, n, u, stress);
-    }
-
-    const bool is_wide = has_avx2();
-  } // namespace
-
-  void StressRecovery::apply(const StressInput &input, const std::size_t first, const std::size_t last,
-                             StressesInTime &stress) const
+  StressKernel stress_kernel()
   {
-    for (unsigned int t = 0; t < input.n; ++t)
-      stress[t].resize(start.size() - 1);
-#pragma omp parallel for schedule(static)
-    for (std::size_t i = first; i < last; ++i)
-    {
-      float sum[6 * StressInput::n_times];
-      (is_wide ? sum_wide : sum_plain)(blocks.data() + start[i], column.data() + start[i],
-                                       start[i + 1] - start[i], input.u.data(), sum);
-      for (unsigned int t = 0; t < input.n; ++t)
-        for (unsigned int c = 0; c < 6; ++c)
-          stress[t][i][c] = sum[StressInput::n_times * c + t];
-    }
-    const auto face = [this](const std::size_t node) -> std::size_t
-    { return std::lower_bound(node_of_face.begin(), node_of_face.end(), node) - node_of_face.begin(); };
-    const std::size_t first_face = face(first), last_face = face(last);
-    for (unsigned int t = 0; t < input.n; ++t)
-      for (std::size_t f = first_face; f < std::min(last_face, input.tractions[t].size()); ++f)
-        for (unsigned int c = 0; c < 6; ++c)
-          for (unsigned int d = 0; d < 3; ++d)
-            stress[t][node_of_face[f]][c] +=
-                of_traction[f][3 * c + d] * static_cast<float>(input.tractions[t][f][d]);
+    using namespace StressKernels;
+    return VOUSSOIR_FOR_LANES(stress_of_node);
+  }
+
+  StressView StressRecovery::view() const
+  {
+    StressView result;
+    result.start = start.data();
+    result.column = column.data();
+    result.block = blocks.data();
+    result.of_traction = of_traction.data();
+    result.face = face.data();
+    return result;
   }
 
   void StressRecovery::apply(const Unknowns &u, const std::vector<Vector3> &tractions,
                              std::vector<Stress> &stress) const
   {
-    StressInput    input;
-    StressesInTime result;
-    input.add(u, tractions);
-    apply(input, 0, start.size() - 1, result);
-    stress = std::move(result[0]);
+    const unsigned int lanes = n_lanes();
+    std::vector<float> of_u(lanes * u.size()), of_faces(3 * lanes * tractions.size());
+    for (std::size_t k = 0; k < u.size(); ++k)
+      of_u[lanes * k] = static_cast<float>(u[k]);
+    for (std::size_t k = 0; k < 3 * tractions.size(); ++k)
+      of_faces[lanes * k] = static_cast<float>(tractions[k / 3][k % 3]);
+    StressView view = this->view();
+    view.u = of_u.data();
+    view.traction = tractions.empty() ? nullptr : of_faces.data();
+    stress.resize(start.size() - 1);
+    const StressKernel kernel = stress_kernel();
+#pragma omp parallel for schedule(static)
+    for (std::size_t i = 0; i < stress.size(); ++i)
+    {
+      float all[6 * most_lanes];
+      kernel(view, i, all);
+      for (unsigned int c = 0; c < 6; ++c)
+        stress[i][c] = all[lanes * c];
+    }
   }
 } // namespace Voussoir

@@ -2,7 +2,7 @@
 #ifndef voussoir_batch_run_h
 #define voussoir_batch_run_h
 
-#include <voussoir/dynamics/motion_batch.h>
+#include <voussoir/output/batch_stresses.h>
 #include <voussoir/output/ensemble_results.h>
 
 namespace Voussoir
@@ -11,17 +11,17 @@ namespace Voussoir
    * text. @p run: after the static state. */
   std::string why_no_batch(const RunState &run);
 
-  /** Run of up to MotionBatch::n_lanes() motions together. */
+  /** Run of up to n_lanes() motions together. */
   class BatchRun
   {
   public:
     /** @param start state after the static state
      * @param model model of its dam
-     * @param stresses observer of no motion, whose operator all motions share
+     * @param observer observer of no motion, whose operator all motions share
      * @param motions as RunState::motion
      *
      * All arguments must outlive the object. */
-    BatchRun(const RunState &start, const BatchModel &model, const StressObserver &stresses,
+    BatchRun(const RunState &start, const BatchModel &model, const StressObserver &observer,
              const std::vector<const GroundMotion *> &motions);
 
     ~BatchRun();
@@ -36,8 +36,12 @@ namespace Voussoir
 
   private:
     struct Lane;
+    std::vector<EnvelopeRecorder *> recorders() const;
+
     MotionBatch                        batch;
+    const unsigned int                 envelope_interval; ///< [steps]
     unsigned int                       step = 0, most_steps = 0;
+    std::optional<BatchStresses>       stresses;
     std::vector<std::unique_ptr<Lane>> lanes;
   };
 } // namespace Voussoir

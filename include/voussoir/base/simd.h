@@ -4,11 +4,21 @@
 
 #include <cstddef>
 #include <cstdint>
+#ifdef __x86_64__
+#include <immintrin.h>
+#endif
 
 // Helpers of kernels with the vector types of GCC and clang. Only sources with kernels include this file.
 
 #define VOUSSOIR_INLINE inline __attribute__((always_inline))
 #define VOUSSOIR_AVX2 __attribute__((target("avx2,fma")))
+
+/** AVX without fused operations: the results do not depend on the processor. */
+#if defined(__x86_64__) && defined(__GNUC__)
+#define VOUSSOIR_WITH_AVX __attribute__((target_clones("avx", "default")))
+#else
+#define VOUSSOIR_WITH_AVX
+#endif
 
 /** Lanes of the vectors a and b, which have integers or floating-point numbers, by constant indices. */
 #ifdef __clang__

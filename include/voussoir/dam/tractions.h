@@ -51,16 +51,34 @@ namespace Voussoir
      * @param acceleration absolute acceleration, three values per free node [m/s^2], or empty: none
      * @param pressure dynamic pressure of acoustic water on the upstream face at each node of the model [Pa], or
      * empty */
-    const std::vector<Vector3> &at(const Unknowns &force, const Unknowns &acceleration = {},
-                                   const std::vector<double> &pressure = {});
+    std::vector<Vector3> at(const Unknowns &force, const Unknowns &acceleration = {},
+                            const std::vector<double> &pressure = {}) const;
+
+    /** at() of several motions, whose values are neighbours in memory.
+     * @param n_motions a multiple of 4
+     * @param force joint forces, three components per pair [N]
+     * @param acceleration absolute acceleration along the normal of each of wet_faces [m/s^2]; null: none
+     * @param result receives three components per face [Pa] */
+    void at(unsigned int n_motions, const float *force, const float *acceleration, float *result) const;
+
+    /** Face on which water moves with the dam. */
+    struct WetFace
+    {
+      unsigned int face, free_node;
+    };
+    std::vector<WetFace> wet_faces; ///< see water_mass
 
   private:
     struct Edge
     {
       unsigned int joint, other; ///< indices of the faces
     };
-    void add_moving_water(const Unknowns &acceleration); ///< adds the hydrodynamic pressure
-    void meet(const Edge &edge);                         ///< adapts the shear traction at an edge
+    /** Adds joint forces, and subtracts the initial stresses. */
+    template <class Scalar, class Force, class T>
+    void add_joints(const Force &force, std::vector<std::array<T, 3>> &traction) const;
+
+    template <class Scalar, class T>
+    void meet(const Edge &edge, std::vector<std::array<T, 3>> &traction) const;
 
     const Structure          &structure;
     JointTractions            joints;
@@ -69,10 +87,7 @@ namespace Voussoir
     std::vector<double>       joint_water;
     std::vector<Vector3>      known;      ///< of the static loads
     std::vector<double>       water_mass; ///< added mass of each face [kg/m^2]
-    std::vector<unsigned int> free_node;  ///< of each face
-    std::vector<Vector3>      traction;   ///< of each face [Pa]
     std::vector<Vector3>      initial;    ///< tractions of the initial stresses [Pa]
-    std::vector<Vector3>      result;
   };
 } // namespace Voussoir
 

@@ -19,6 +19,7 @@ namespace Voussoir
     int   node[2];       ///< free nodes of the sides, or -1: rigid ground
     float friction_of;   ///< coefficient of friction [-]
     float frame[9];      ///< n, t1, t2 as rows
+    float cosine, sine;  ///< of the angle from the tangent a of the pair to t1
     float impulse[2][9]; ///< velocity of each node by the force of the pair [m/s/N]
 
     /** Gap of a step h by the force [m/N]: n by n, t1 by n, t2 by n, t1 by t1, t2 by t2. */

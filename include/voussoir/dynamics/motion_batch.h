@@ -38,6 +38,8 @@ namespace Voussoir
 
     BatchView view() const; ///< arrays for the kernels
 
+    std::vector<unsigned int> nodes_of_pairs;
+
     const Structure   &structure;
     const double       dt;
     const unsigned int n_steps;
@@ -63,10 +65,6 @@ namespace Voussoir
   class MotionBatch
   {
   public:
-    /** Returns the number of lanes on this processor: 16 with AVX-512, 8 with AVX2, otherwise 4. The variable
-     * VOUSSOIR_LANES of the environment reduces it. */
-    static unsigned int n_lanes();
-
     /** Starts all lanes in the static state. @p model must outlive the object. */
     explicit MotionBatch(const BatchModel &model);
 
@@ -75,10 +73,21 @@ namespace Voussoir
     void advance(const std::vector<Vector3> &before, const std::vector<Vector3> &after);
 
     /** Returns the state of a lane: displacement, velocity at the middle of the last step h, mean joint forces of the
-     * last time step and works. The kinetic energy is that of kinetic_energy(). */
-    void read(unsigned int lane, DynamicState &state) const;
+     * last time step and works. The kinetic energy is that of kinetic_energy(). @p only: nodes whose displacements and
+     * velocities are set; null: all. */
+    void read(unsigned int lane, DynamicState &state, const std::vector<unsigned int> *only = nullptr) const;
 
     double kinetic_energy(unsigned int lane) const; ///< [J]
+    double time() const { return now; }             ///< [s]
+
+    const float *displacements() const
+    {
+      return u.data();
+    } ///< since the static state: a value per lane for each component [m]
+    const float *velocities() const { return v.data(); } ///< in the same order [m/s]
+
+    /** Computes the mean joint forces of the last time step in the frames of the pairs, in the same order [N]. */
+    void find_joint_forces(float *force) const;
 
   private:
     const BatchModel            &model;
@@ -86,7 +95,7 @@ namespace Voussoir
     const unsigned int           lanes;
     dealii::AlignedVector<float> u, v, w, f, d, gap, moved, impulse;
     double                       works[4][16] = {}; ///< see BatchState
-    double                       time = 0.;
+    double                       now = 0.;
   };
 
   /** Lane of a batch as the state of a run: for observers of results. */
@@ -97,8 +106,10 @@ namespace Voussoir
     LaneIntegrator(const MotionBatch &batch, const BatchModel &model, const JointLaws &laws,
                    const Unknowns &force, unsigned int lane);
 
-    /** Reads the state of the lane. @p with_energy: also the kinetic energy. */
-    void read(bool with_energy);
+    /** Reads the state of the lane, with displacements and velocities of the pairs only. */
+    void read();
+
+    void read_all(); ///< also all displacements and velocities, and the kinetic energy
 
     ContactResult                 advance(const Unknowns &, const Vector3 &) override;
     const std::vector<PairState> &pair_states() const override { return states; }
@@ -111,6 +122,7 @@ namespace Voussoir
     const BatchModel      &model;
     const unsigned int     lane;
     std::vector<PairState> states;
+    void                   read_forces();
   };
 } // namespace Voussoir
 

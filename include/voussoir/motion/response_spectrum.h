@@ -46,8 +46,8 @@ namespace Voussoir
     std::vector<double> sensitivity(std::size_t substep, std::size_t n_samples) const;
 
   private:
-    template <unsigned int n>
-    static void find_peaks(const Oscillator *oscillator, const std::vector<double> &acceleration, Peak *peak);
+    static void find_four_peaks(const Oscillator *oscillator, const std::vector<double> &acceleration,
+                                Peak *peak);
 
     std::size_t           n_substeps;    // per sample
     double                stiffness;     // w^2

@@ -22,31 +22,18 @@ namespace Voussoir
   class FaceDirections
   {
   public:
-    static constexpr unsigned int n_stresses = 3; ///< arch, cantilever, vertical
+    static constexpr unsigned int n_stresses = NodeOnFace::n_stresses;
 
     /** Returns "arch", "cantilever" or "vertical". */
     static const char *name(unsigned int k);
-
-    /** Face at one of its nodes. */
-    struct Node
-    {
-      unsigned int node;             ///< node of the model
-      int          surface;          ///< PhysicalId::upstream or downstream
-      Stress       arch, cantilever; ///< factors of the six stress components [-]
-
-      /** Returns the arch, cantilever and vertical stress [Pa]. @p s: stress of the node [Pa]. */
-      std::array<float, n_stresses> stresses(const Stress &s) const;
-    };
 
     FaceDirections() = default;
 
     /** Computes the directions at all nodes of both faces. */
     explicit FaceDirections(const SolidModel &model);
 
-    /** Returns the index into nodes of the first entry that is not below @p node. */
-    std::size_t first_of(unsigned int node) const;
-
-    std::vector<Node> nodes; ///< sorted by node
+    std::vector<NodeOnFace>  nodes; ///< sorted by node
+    std::vector<std::size_t> first; ///< index of the first entry of each node of the model
   };
 
   /** Largest and smallest arch, cantilever and vertical stresses of both faces over time. */
@@ -58,10 +45,17 @@ namespace Voussoir
     /** Prepares the records of all nodes of both faces. */
     explicit FaceEnvelope(const SolidModel &model);
 
-    /** Updates the extremes of the nodes @p first to @p last - 1.
+    /** Updates the extremes of a node.
      * @param time present time [s]
-     * @param stress present stress of each node of the model [Pa] */
-    void record(double time, const std::vector<Stress> &stress, std::size_t first, std::size_t last);
+     * @param stress present stress [Pa] */
+    void record(std::size_t node, double time, const Stress &stress);
+
+    /** Lets @p view refer to face nodes and extremes. */
+    void show(StressView &view) const;
+
+    /** Takes the extremes and times of a column of StressView. */
+    void take(const std::vector<float> &extremes, const std::vector<float> &times, std::size_t n_columns,
+              std::size_t column);
 
     /** Exchanges the extremes of all ranks. Rank r owns the nodes begin[r] to begin[r + 1] of the model. */
     void gather(std::vector<std::size_t> begin);

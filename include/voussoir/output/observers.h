@@ -128,6 +128,10 @@ namespace Voussoir
     /** Returns the largest opening and slip [m]: members of "extremes" in summary.json. */
     NamedExtremes extremes() const { return {{"max_opening", joints.opening}, {"max_slip", joints.slip}}; }
 
+    /** Returns the largest opening that a joint keeps at the crest from its largest opening to the end [m]; 0: all joints
+     * close again. */
+    double kept_opening() const;
+
     /** Returns "motion_parts" of summary.json: source, times [s], and largest opening and slip of each joint
      * after the rest [m]. */
     Json json_of_parts() const;
@@ -160,7 +164,15 @@ namespace Voussoir
     void load(boost::archive::binary_iarchive &archive) override;
 
     /** Returns the total stresses at the nodes of the model at the present time [Pa]. */
-    std::vector<Stress> now();
+    std::vector<Stress> now() const
+    {
+      return stress_of(run.statics.elastic(run.integrator->state().u), tractions_now());
+    }
+
+    /** Returns the stresses of StressRecovery::apply() and the initial stresses [Pa]. */
+    std::vector<Stress> stress_of(const Unknowns &u, const std::vector<Vector3> &tractions) const;
+
+    StressView view() const { return recovery->view(); } ///< with the operator only
 
     /** Returns true if stresses are recorded. */
     bool is_recording() const { return run.scene().output.envelope_interval.samples > 0; }
@@ -177,16 +189,19 @@ namespace Voussoir
 
     /** Returns the boundary tractions for the stress recovery, or a null pointer if the input file disables
      * them (Output/Stress recovery). */
-    Tractions *known_tractions() { return run.scene().output.knows_tractions() ? &tractions : nullptr; }
+    const Tractions *known_tractions() const
+    {
+      return run.scene().output.knows_tractions() ? &tractions : nullptr;
+    }
 
   private:
-    std::vector<Vector3> tractions_now();
+    std::vector<Vector3> tractions_now() const;
     std::string          largest_in_words(int surface, bool with_base) const;
     std::string          range_in_words(unsigned int k, int surface) const;
 
     const RunState      &run;
     const JointRecorder &joints;
-    Tractions            tractions;
+    const Tractions      tractions;
 
     const std::shared_ptr<const StressRecovery> recovery; ///< stresses at the nodes from displacements
 

@@ -40,18 +40,21 @@ namespace Voussoir
     /** Returns true if there is a record after the initial one. A static state has no duration. */
     bool has_lasted() const { return last > 0.; }
 
-    /** Begins a record. @p time: present time [s]. */
-    void begin(const double time)
+    /** Begins a record, and returns the time since the previous one [s]. @p time: present time [s]. */
+    double begin(const double time)
     {
-      interval = last < 0. ? 0. : time - last;
+      const double interval = last < 0. ? 0. : time - last;
       last = time;
+      return interval;
     }
 
     /** Returns the stress above which durations are recorded [Pa]. */
     float lowest_level() const { return is_active() ? strength : std::numeric_limits<float>::infinity(); }
 
-    /** Adds a node to the record. @p stress: its maximum principal stress at the present time [Pa]. */
-    void add(const std::size_t node, const float stress)
+    /** Adds a node to a record.
+     * @param stress its maximum principal stress at the time of the record [Pa]
+     * @param interval as begin() returned it [s] */
+    void add(const std::size_t node, const float stress, const double interval)
     {
       if (stress > lowest_level())
         for (unsigned int k = 0; k < n_levels && stress > static_cast<float>(level(k)) * strength; ++k)
@@ -76,9 +79,9 @@ namespace Voussoir
     template <class Archive> void serialize(Archive &archive, unsigned int) { archive &seconds &last; }
 
   private:
-    float  strength = 0.f;
-    double last = -1., interval = 0.; ///< time of the last record, time since the previous one [s]
-    std::vector<double> seconds;      ///< n_levels values per node [s]
+    float               strength = 0.f;
+    double              last = -1.; ///< time of the last record [s]
+    std::vector<double> seconds;    ///< n_levels values per node [s]
   };
 } // namespace Voussoir
 

@@ -125,6 +125,12 @@ namespace Voussoir
      * @param tractions known tractions, as in StressRecovery::apply() */
     void record(double time, const Unknowns &u, const std::vector<Vector3> &tractions);
 
+    /** Updates the principal stresses of a node.
+     * @param time present time [s]
+     * @param interval Overstress::begin() [s]
+     * @param stress its present stress, with the initial one [Pa] */
+    void update(std::size_t node, double time, double interval, const Stress &stress);
+
     /** Completes the extremes, and gathers those of all nodes on every rank. All ranks must call it before they
      * read or archive the extremes. */
     void gather();
@@ -144,20 +150,18 @@ namespace Voussoir
     {
       if (Archive::is_saving::value)
         evaluate();
-      input.n = 0; // a loaded archive replaces recorded states
+      times.clear(); // a loaded archive replaces recorded states
       archive &maximum &minimum &time_of_maximum &time_of_minimum &overstress &faces;
     }
 
   private:
     void evaluate(); ///< of all recorded states
-    void update(double time, std::vector<Stress> &stress);
 
-    const StressRecovery                    &recovery;
-    std::vector<Stress>                      initial;
-    std::vector<std::size_t>                 begin; ///< first node of each rank
-    StressInput                              input; ///< states since the last evaluate()
-    std::array<double, StressInput::n_times> times; ///< of these states [s]
-    StressesInTime                           stresses;
+    const StressRecovery    &recovery;
+    std::vector<Stress>      initial;
+    std::vector<std::size_t> begin;                         ///< first node of each rank
+    std::vector<float>       displacements, face_tractions; ///< see StressView; since the last evaluate()
+    std::vector<double>      times;                         ///< of these states [s]
   };
 
   /** Writer of results on the mesh: VTU files for ParaView, and the developed faces for the figures. */

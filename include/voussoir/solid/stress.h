@@ -22,24 +22,60 @@ namespace Voussoir
    * of the cost of principal_stresses(). */
   bool exceeds(const Stress &s, float high, float low);
 
-  /** Displacements and known face tractions at up to n_times times. StressRecovery computes the stresses at these
-   * times together, because it then reads its operator only once. */
-  struct StressInput
+  /** Face of the dam at one of its nodes, see FaceDirections. */
+  struct NodeOnFace
   {
-    static constexpr unsigned int n_times = 8;
+    static constexpr unsigned int n_stresses = 3; ///< arch, cantilever, vertical
 
-    /** Adds a time.
-     * @param at_free_nodes displacement, three values per free node [m]
-     * @param of_faces force per area on each of the faces [Pa]; empty: all zero */
-    void add(const Unknowns &at_free_nodes, const std::vector<Vector3> &of_faces);
+    unsigned int node;             ///< node of the model
+    int          surface;          ///< PhysicalId::upstream or downstream
+    Stress       arch, cantilever; ///< factors of the six stress components [-]
 
-    unsigned int                              n = 0;     ///< number of times
-    std::vector<float>                        u;         ///< displacements: n_times values per component [m]
-    std::array<std::vector<Vector3>, n_times> tractions; ///< of the faces at each time [Pa]
+    /** Returns the arch, cantilever and vertical stress [Pa]. @p s: stress of the node [Pa]. */
+    std::array<float, n_stresses> stresses(const Stress &s) const;
   };
 
-  /** Stress of each node of the model at each time of a StressInput [Pa]. */
-  using StressesInTime = std::array<std::vector<Stress>, StressInput::n_times>;
+  /** Data of StressKernel. Columns are times of a run or motions of a batch: arrays have n_lanes() values per component,
+   * one for each column. */
+  struct StressView
+  {
+    const std::size_t           *start = nullptr;  ///< first block of each node
+    const unsigned int          *column = nullptr; ///< free node of each block
+    const std::array<float, 18> *block = nullptr, *of_traction = nullptr;
+    const std::size_t           *face = nullptr; ///< first face of each node
+
+    const float  *u = nullptr;        ///< displacements, three components per free node [m]
+    const float  *traction = nullptr; ///< three components per face [Pa]; null: zero
+    const Stress *added = nullptr;    ///< stress of each node to add [Pa]; null: zero
+
+    /** Extremes so far: the largest and the smallest principal stress of each node, and of each NodeOnFace the largest
+     * and the smallest arch, cantilever and vertical stress [Pa]. Null: none. */
+    const float       *maximum = nullptr, *minimum = nullptr, *of_faces = nullptr;
+    float              lowest = 0.f;      ///< larger principal stresses count although below the maximum
+    const NodeOnFace  *on_face = nullptr; ///< all nodes on faces
+    const std::size_t *first_on_face = nullptr; ///< of each node; null: none
+
+    /** Motions: the extremes have n_lanes() values, too, and the kernel updates those of the faces with their times [s]. */
+    bool   by_column = false;
+    float *new_of_faces = nullptr, *times_of_faces = nullptr;
+    float  time = 0.f;
+  };
+
+  /** Computes the stress of a node, six components for all columns [Pa]. Returns the columns that may change an extreme,
+   * column t as the bit 2^t. */
+  using StressKernel = unsigned int (*)(const StressView &view, std::size_t node, float *stress);
+
+  /** Returns a column of the result of StressKernel. @p lanes: n_lanes(). */
+  inline Stress column_of(const float *stress, const unsigned int lanes, const unsigned int column)
+  {
+    Stress result;
+    for (unsigned int c = 0; c < 6; ++c)
+      result[c] = stress[lanes * c + column];
+    return result;
+  }
+
+  /** Returns the kernel for n_lanes(). */
+  StressKernel stress_kernel();
 
   /** Operator from displacements and known face tractions to nodal stresses, as sparse matrix products.
    *
@@ -52,7 +88,7 @@ namespace Voussoir
    *    the faces are unchanged (TractionCondition).
    *
    * The operator is stored and applied in single precision, with a relative error of 1e-7, because it is
-   * applied at every recorded step. The stresses at a time do not depend on the other times of a StressInput. */
+   * applied at every recorded step. The stresses of a column do not depend on the other columns of a StressView. */
   class StressRecovery
   {
   public:
@@ -70,8 +106,8 @@ namespace Voussoir
      * @param stress receives one stress per node of the model [Pa] */
     void apply(const Unknowns &u, const std::vector<Vector3> &tractions, std::vector<Stress> &stress) const;
 
-    /** Computes the stresses of the nodes @p first to @p last - 1 at all times of @p input. */
-    void apply(const StressInput &input, std::size_t first, std::size_t last, StressesInTime &stress) const;
+    /** Returns a view with the operator only. */
+    StressView view() const;
 
     double memory() const { return 4. * 18. * (blocks.size() + of_traction.size()); } ///< [bytes]
 
@@ -85,8 +121,8 @@ namespace Voussoir
     std::vector<std::size_t>           start;
     std::vector<unsigned int>          column; ///< free node of each block
     std::vector<std::array<float, 18>> blocks; ///< stress component 0..5 by displacement component x, y, z
-    std::vector<std::array<float, 18>> of_traction;  ///< per face: stress of its node by traction
-    std::vector<unsigned int>          node_of_face; ///< node of each face
+    std::vector<std::array<float, 18>> of_traction; ///< per face: stress of its node by traction
+    std::vector<std::size_t>           face;        ///< first face of each node
   };
 } // namespace Voussoir
 
