@@ -224,8 +224,6 @@ namespace Voussoir
   void EnvelopeRecorder::update(const std::size_t i, const double time, const double interval,
                                 const Stress &stress)
   {
-    if (!exceeds(stress, std::min(maximum[i], overstress.lowest_level()), minimum[i]))
-      return;
     const auto p = principal_stresses(stress);
     overstress.add(i, p[0], interval);
     if (p[0] > maximum[i])

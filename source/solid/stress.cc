@@ -17,26 +17,6 @@ namespace Voussoir
 
   namespace
   {
-    /** Mean stress, diagonal of the deviator, and p^2: the principal stresses lie between mean - 2p and mean + 2p. */
-    struct Invariants
-    {
-      explicit Invariants(const Stress &s)
-          : mean((double(s[0]) + s[1] + s[2]) / 3.), x(s[0] - mean), y(s[1] - mean), z(s[2] - mean)
-      {
-        const double shear = double(s[3]) * s[3] + double(s[4]) * s[4] + double(s[5]) * s[5];
-        p_square = (x * x + y * y + z * z + 2. * shear) / 6.;
-      }
-      double determinant(const Stress &s) const ///< of the deviator
-      {
-        return x * (y * z - double(s[4]) * s[4]) - s[3] * (double(s[3]) * z - double(s[4]) * s[5]) +
-               s[5] * (double(s[3]) * s[4] - y * s[5]);
-      }
-      double mean, x, y, z, p_square;
-    };
-  } // namespace
-
-  namespace
-  {
     /** Returns cos(2/3 acos(s)) for 0 <= s <= 1: the polynomial through its values at Chebyshev points, with an error of
      * 2e-12. With s = sqrt((1 + r)/2) this is cos(acos(r)/3). */
     double cosine_of_third(const double s)
@@ -53,27 +33,16 @@ namespace Voussoir
     }
   } // namespace
 
-  bool exceeds(const Stress &s, const float high, const float low)
-  {
-    const Invariants of(s);
-    const double     a = high - of.mean, b = of.mean - low;
-    if (a >= 0. && b >= 0. && std::min(a, b) * std::min(a, b) >= 4. * of.p_square)
-      return false;
-    const double det = of.determinant(s);
-    // The characteristic polynomial of the deviator increases beyond its largest root.
-    const auto is_beyond = [&](const double m, const double det)
-    { return m >= 0. && m * m >= of.p_square && m * (m * m - 3. * of.p_square) >= det; };
-    return !is_beyond(a, det) || !is_beyond(b, -det);
-  }
-
   std::array<float, 2> principal_stresses(const Stress &s)
   {
-    // Trigonometric solution of the characteristic equation of the deviator.
-    const Invariants of(s);
-    const double     mean = of.mean, p = std::sqrt(of.p_square);
+    // Trigonometric solution of the characteristic equation of the deviator, with diagonal x y z.
+    const double mean = (double(s[0]) + s[1] + s[2]) / 3., x = s[0] - mean, y = s[1] - mean, z = s[2] - mean,
+                 xy = s[3], yz = s[4], zx = s[5];
+    const double p = std::sqrt((x * x + y * y + z * z + 2. * (xy * xy + yz * yz + zx * zx)) / 6.);
     if (p <= 1e-30)
       return {{float(mean), float(mean)}};
-    const double r = std::clamp(of.determinant(s) / (2. * p * p * p), -1., 1.);
+    const double determinant = x * (y * z - yz * yz) - xy * (xy * z - yz * zx) + zx * (xy * yz - y * zx);
+    const double r = std::clamp(determinant / (2. * p * p * p), -1., 1.);
     return {{float(mean + 2. * p * cosine_of_third(std::sqrt(.5 + .5 * r))),
              float(mean - 2. * p * cosine_of_third(std::sqrt(.5 - .5 * r)))}};
   }

@@ -31,8 +31,8 @@ struct Components
   }
 };
 
-/** Columns whose principal stresses may be outside of an interval, as exceeds(). Round-off of single precision makes the
- * interval smaller. */
+/** Columns whose principal stresses may be outside of an interval: the characteristic polynomial of the deviator increases
+ * beyond its largest root. Round-off of single precision makes the interval smaller. */
 VOUSSOIR_INLINE Mask may_exceed(const Components &s, const Vector high, const Vector low)
 {
   constexpr float tolerance = 1e-5f;

@@ -18,10 +18,6 @@ namespace Voussoir
   /** Returns the largest and the smallest principal stress [Pa]. */
   std::array<float, 2> principal_stresses(const Stress &s);
 
-  /** Returns true if the largest principal stress is above @p high or the smallest one below @p low [Pa], at a fraction
-   * of the cost of principal_stresses(). */
-  bool exceeds(const Stress &s, float high, float low);
-
   /** Face of the dam at one of its nodes, see FaceDirections. */
   struct NodeOnFace
   {
