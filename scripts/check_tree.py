@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Checks of the whole tree: budgets of lines and words, files that pages name, one version number, the licence in each source, and
-how many sources and headers reach the grids of deal.II.
+"""Checks of the whole tree: budgets of lines and words, files that pages name, one version number, doc/generated/columns.md, the licence in
+each source, and how many sources and headers reach the grids of deal.II.
 
     scripts/check_tree.py
 
@@ -11,6 +11,8 @@ import re
 import subprocess
 import sys
 from pathlib import Path
+
+import reference
 
 ROOT = Path(__file__).resolve().parent.parent
 BUDGETS = {"lines of C++ in source and include": 64266, "words of pages written by hand": 36277,
@@ -71,6 +73,7 @@ def main():
             errors.append(f"{count} {what}, more than {budget}. Delete what the change made superfluous")
     errors += unknown_files(pages)
     errors += other_versions()
+    errors += reference.stale()
     errors += [f"{path.relative_to(ROOT)} does not state its licence in the first lines (SPDX)"
                for path in tracked("*.cc", "*.h", "*.py", "*.sh", "*.cmake", "*CMakeLists.txt")
                if "SPDX-License-Identifier" not in "".join(path.read_text().splitlines(True)[:3])]
