@@ -52,6 +52,33 @@ def unknown_files(pages):
                 yield f"{page.relative_to(ROOT)} names {name}, which does not exist"
 
 
+def broken_links(pages):
+    """Links of pages to files and headings that do not exist."""
+    def anchors(page):
+        text = re.sub(r"^```.*?^```", "", page.read_text(), flags=re.S | re.M)
+        heads = (re.sub(r"\[([^]]*)\]\([^)]*\)", r"\1", head) for head in re.findall(r"^#+ (.*)", text, re.M))
+        return {re.sub(r"[^\w -]", "", head.lower()).replace(" ", "-") for head in heads}
+    for page in pages:
+        for target in re.findall(r"\]\(([^)\s]+)\)", re.sub(r"`[^`]*`", "", page.read_text())):
+            name, _, anchor = target.partition("#")
+            path = page.parent / name if name else page
+            if "://" not in target and not (path.exists() and (not anchor or anchor in anchors(path))):
+                yield f"{page.relative_to(ROOT)} links {target}, which does not exist"
+
+
+def unknown_entries(pages):
+    """Entries of the input file that pages name and doc/generated/entries.md does not have. changes.md may name old entries;
+    studies have entries of their own."""
+    known = set(re.findall(r"^\| `([^`]+)`", (ROOT / "doc/generated/entries.md").read_text(), re.M))
+    sections = {name.split("/")[0] for name in known}
+    for page in pages:
+        for name in re.findall(r"""(?:`|--set '?)([A-Z]\w+/[^`'=\n]*?)(?:\\? )?(?:[`'=]| = )""", page.read_text()):
+            name = name.replace("\\ ", " ")
+            if name.split("/")[0] in sections and page.name not in ("changes.md", "studies.md") and "..." not in name and "*" not in name \
+                    and not any(entry == name or entry.startswith(f"{name}/") for entry in known):
+                yield f"{page.relative_to(ROOT)} names the entry {name}, which does not exist"
+
+
 def other_versions():
     """Files that state another version than CMakeLists.txt."""
     version = re.search(r"project\(voussoir VERSION ([\d.]+)", (ROOT / "CMakeLists.txt").read_text()).group(1)
@@ -72,6 +99,9 @@ def main():
         if count > budget:
             errors.append(f"{count} {what}, more than {budget}. Delete what the change made superfluous")
     errors += unknown_files(pages)
+    by_hand = [page for page in pages if "generated" not in page.parts]
+    errors += broken_links(pages)
+    errors += unknown_entries(by_hand + tracked("examples/*.md", "benchmarks/*.md"))
     errors += other_versions()
     errors += reference.stale()
     errors += [f"{path.relative_to(ROOT)} does not state its licence in the first lines (SPDX)"

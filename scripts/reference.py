@@ -46,8 +46,8 @@ def columns_page():
     text = NOTE + """# Columns, fields and keys
 
 SI units; tensile stress is positive; [output files](../output.md) explains the terms.
-`{a,b}` stands for several names, K for the number of a joint or monolith from the right bank, NAME for the name of a probe, wedge or zone,
-DEPTH for a depth, and `*` for each element of a list; points separate the keys of JSON.
+`{a,b}` denotes several names, K the number of a joint or monolith from the right bank, NAME the name of a probe, wedge or zone,
+DEPTH a depth, and `*` each element of a list. Points separate the keys of JSON.
 """
     for name, (purpose, rows) in columns().items():
         text += f"\n## {name}\n\n{purpose}.\n\n| Name | Unit | Meaning |\n|---|---|---|\n"
