@@ -104,5 +104,37 @@ def pages():
     expect(not errors, "\n".join(errors))
 
 
+def selections(tree, path=()):
+    """Entries with a list of choices."""
+    for name, child in tree.items():
+        if "pattern_description" not in child:
+            yield from selections(child, (*path, name))
+        elif choices := re.match(r"\[Selection (.*?) ?\]", child["pattern_description"]):
+            yield "/".join((*path, name)), choices[1].split("|")
+
+
+def named():
+    """Pages name all laws, loads, models and commands of the program, and no others."""
+    files = [path for path in (ROOT / "doc").rglob("*.md") if "generated" not in path.parts and path.name != "changes.md"] + [ROOT / "README.md"]
+    text, errors = "\n".join(file.read_text() for file in files), []
+    choices = dict(selections(json.loads(runs("parameters", "json"))))
+    for entry in ("Joints/Model", "Foundation/Model", "Foundation/Boundary", "Reservoir/Model", "Dynamics/Scheme", "Dynamics/Impact", "Damping/Model"):
+        errors += [f"no page names {entry} = {name}" for name in choices[entry] if not re.search(rf"(?<![\w-]){re.escape(name)}(?![\w-])", text)]
+    for file, entry in (("method", "Joints/Model"), ("rock", "Foundation/Model")):
+        listed = re.search(rf"\| `{entry}` \|.*\n.*\n((?:\| `.*\n)+)", (ROOT / f"doc/{file}.md").read_text())[1]
+        listed = re.findall(r"^\| `([\w-]+)`", listed, re.M)
+        errors += [] if set(listed) == set(choices[entry]) else [f"doc/{file}.md lists {listed} of {entry}, the program {choices[entry]}"]
+    errors += [f"a page has {entry} = {value}" for entry, value in re.findall(r"(\w+/[\w/ ]+?) ?= ?([\w-]+)['`]", text)
+               if value not in choices.get(entry, [value])]
+    loads = re.search(r"Loads: (.*?)\.$", runs("parameters", "markdown", "Loads/Combinations").strip().rstrip(" |"), re.M)[1]
+    stated = re.search(r"The loads are (.*?), with", (ROOT / "doc/loads.md").read_text())[1]
+    loads, stated = {re.sub(r" \(.*", "", name) for name in loads.split(", ")} - {"earthquake"}, set(re.findall("`(.*?)`", stated))
+    errors += [] if loads == stated else [f"doc/loads.md names the loads {stated}, the program {loads}"]
+    known, used = (set(re.findall(rf"{before}voussoir ([a-z]+)\b(?![./])", page, re.M)) for before, page in (
+        ("^", runs("--help")), ("(?:`|<\\(|^|^    )(?:build/)?", text)))
+    errors += [] if known - {"--help"} == used else [f"commands in pages only or in the program only: {known ^ used}"]
+    expect(not errors, "\n".join(errors))
+
+
 if __name__ == "__main__":
-    run_cases(rows, pages)
+    run_cases(rows, pages, named)
