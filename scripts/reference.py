@@ -41,6 +41,13 @@ def expanded(name):
     return ["".join(choice) for choice in product(*parts)]
 
 
+def shown(name):
+    """A name as the cell of a table: choices of words are spelled out, if there are few."""
+    names = expanded(re.sub(r"\{((?:\w{1,2},)+\w{1,2})\}", lambda match: f"<{match[1].replace(',', ';')}>", name))
+    names = [re.sub(r"<(.*?)>", lambda match: f"{{{match[1].replace(';', ',')}}}", one) for one in names]
+    return "<br>".join(f"`{one}`" for one in (names if len(names) < 8 else [name]))
+
+
 def columns_page():
     """doc/generated/columns.md."""
     text = NOTE + """# Columns, fields and keys
@@ -51,7 +58,7 @@ DEPTH a depth, and `*` each element of a list. Points separate the keys of JSON.
 """
     for name, (purpose, rows) in columns().items():
         text += f"\n## {name}\n\n{purpose}.\n\n| Name | Unit | Meaning |\n|---|---|---|\n"
-        text += "".join(f"| `{column}` | {unit} | {meaning} |\n" for column, unit, meaning in rows)
+        text += "".join(f"| {shown(column)} | {unit} | {meaning} |\n" for column, unit, meaning in rows)
     return text
 
 
@@ -62,7 +69,7 @@ def entries_page(program):
         text = f"\n## {'/'.join(path)}\n\n| Entry | Default | Meaning |\n|---|---|---|\n" if own else ""
         for name, entry in own.items():
             default = f"`{entry['default_value']}`" if entry["default_value"] else ""
-            text += f"| `{'/'.join([*path, name])}` | {escape(default)} | {escape(entry['documentation'])} |\n"
+            text += f"| `{'/'.join([*path, name])}` | {escape(default)} | {linked(entry['documentation'])} |\n"
         return text + "".join(table(child, [*path, name]) for name, child in tree.items() if name not in own)
 
     return NOTE + "# Entries of the input file\n\n`voussoir parameters` prints the same.\n" + table(json.loads(output(program, "parameters", "json")), [])
@@ -71,6 +78,11 @@ def entries_page(program):
 def commands_page(program):
     """doc/generated/commands.md: the help of the program."""
     return NOTE + "# Commands\n\n" + "".join(f"    {line}".rstrip() + "\n" for line in output(program, "--help").splitlines())
+
+
+def linked(text):
+    """The text of an entry, with links to the pages that it names."""
+    return re.sub(r"doc/(\w+)\.md", r"[\1](../\1.md)", escape(text))
 
 
 def escape(text):

@@ -116,7 +116,9 @@ def configuration(directory, pages):
             "extra_css": ["tables.css"]}
     formulas(pages)
     (pages / "tables.css").write_text("thead:has(th:empty) { display: none; }\n"
-                                      "div.arithmatex { overflow-x: auto; }\n", encoding="utf-8")
+                                      "div.arithmatex { overflow-x: auto; }\n"
+                                      "@media (max-width: 600px) { .md-typeset table:not([class]) :is(th, td) { min-width: 0; padding: .5em; } }\n",
+                                      encoding="utf-8")
     path = directory / "mkdocs.yml"
     path.write_text(json.dumps(text, indent=1), encoding="utf-8")  # JSON is YAML
     return path
