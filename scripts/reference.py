@@ -69,7 +69,7 @@ def entries_page(program):
         text = f"\n## {'/'.join(path)}\n\n| Entry | Default | Meaning |\n|---|---|---|\n" if own else ""
         for name, entry in own.items():
             default = f"`{entry['default_value']}`" if entry["default_value"] else ""
-            text += f"| `{'/'.join([*path, name])}` | {escape(default)} | {linked(entry['documentation'])} |\n"
+            text += f"| `{'/'.join([*path, name])}` | {escape(default)} | {meaning(entry)} |\n"
         return text + "".join(table(child, [*path, name]) for name, child in tree.items() if name not in own)
 
     return NOTE + "# Entries of the input file\n\n`voussoir parameters` prints the same.\n" + table(json.loads(output(program, "parameters", "json")), [])
@@ -80,9 +80,13 @@ def commands_page(program):
     return NOTE + "# Commands\n\n" + "".join(f"    {line}".rstrip() + "\n" for line in output(program, "--help").splitlines())
 
 
-def linked(text):
-    """The text of an entry, with links to the pages that it names."""
-    return re.sub(r"doc/(\w+)\.md", r"[\1](../\1.md)", escape(text))
+def meaning(entry):
+    """The text of an entry, with a line for each choice and links to the pages that it names."""
+    text = re.sub(r"doc/(\w+)\.md", r"[\1](../\1.md)", escape(entry["documentation"]))
+    choices = re.match(r"\[(?:Selection|Bool) ?(.*?) ?\]", entry["pattern_description"])
+    for choice in (choices[1] or "true|false").split("|") if choices else ():
+        text = re.sub(rf"(?:^|(?<=\.) |; ){re.escape(choice)}: ", f"<br>`{choice}`: ", text)
+    return text.removeprefix("<br>")
 
 
 def escape(text):
