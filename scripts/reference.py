@@ -4,7 +4,7 @@
 
     scripts/reference.py [--voussoir build/voussoir] [--check]
 
---check writes nothing, and ends with status 1 if a page is not up to date. Without a program it checks columns.md only.
+--check writes nothing, and ends with status 1 if a page is not up to date. Without --voussoir it checks columns.md only.
 """
 
 import argparse
@@ -113,15 +113,15 @@ def stale(program=None):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--voussoir", type=Path, help="the program, by default build/voussoir if it exists")
+    parser.add_argument("--voussoir", type=Path, help="the program, by default build/voussoir")
     parser.add_argument("--check", action="store_true", help="write nothing")
     options = parser.parse_args()
-    program = options.voussoir or next((path for path in [ROOT / "build" / "voussoir"] if path.is_file()), None)
     if options.check:
-        errors = stale(program)
-        print("\n".join(f"reference: {error}" for error in errors), end="\n" if errors else "", file=sys.stderr)
+        errors = stale(options.voussoir)
+        for error in errors:
+            print(error, file=sys.stderr)
         return 1 if errors else 0
-    for path, text in pages(program).items():
+    for path, text in pages(options.voussoir or ROOT / "build" / "voussoir").items():
         path.write_text(text, encoding="utf-8")
     return 0
 
