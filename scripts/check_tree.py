@@ -64,6 +64,15 @@ def broken_links(pages):
                 yield f"{page.relative_to(ROOT)} links {target}, which does not exist"
 
 
+def unlisted_pages(pages):
+    """Pages of doc/ that doc/index.md does not link."""
+    index = (ROOT / "doc/index.md").read_text()
+    for page in pages:
+        name = page.relative_to(ROOT / "doc").as_posix() if ROOT / "doc" in page.parents else "index.md"
+        if name != "index.md" and f"]({name}" not in index:
+            yield f"doc/index.md does not link {name}"
+
+
 def unknown_entries(pages):
     """Entries of the input file that pages name and doc/generated/entries.md does not have. changes.md may name old entries;
     studies have entries of their own."""
@@ -99,6 +108,7 @@ def main():
     errors += unknown_files(pages)
     by_hand = [page for page in pages if "generated" not in page.parts]
     errors += broken_links(pages)
+    errors += unlisted_pages(pages)
     errors += unknown_entries(by_hand + tracked("examples/*.md", "benchmarks/*.md"))
     errors += other_versions()
     checked = subprocess.run([sys.executable, ROOT / "scripts" / "reference.py", "--check"], capture_output=True, text=True, check=False)
