@@ -20,7 +20,7 @@ BOUNDARIES = ("mtf3", "viscous-spring", "mtf2", "viscous", "fixed", "mtf1", "mtf
 CASES = [("quickstart", 4., []), ("rigid28", 2., [])]
 NEEDS = {"mtf4": ["Mesh/Arch210/Rock/Boundary layers=9"]}
 CASES += [("rock_fja", 4., [f"Foundation/Boundary={name}", *NEEDS.get(name, [])]) for name in BOUNDARIES]  # 2000 steps
-CASES += [("keys_law", 1., []), ("massless_fja", 2., [])]
+CASES += [("../benchmarks/keys_law", 1., []), ("massless_fja", 2., [])]
 
 
 def run(program, scene, settings, directory, ranks):

@@ -34,7 +34,7 @@ install(CODE "execute_process(COMMAND \"$<TARGET_FILE:voussoir>\" completion bas
 install(FILES ${CMAKE_BINARY_DIR}/voussoir.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME voussoir)
 install(DIRECTORY scripts/ DESTINATION ${VOUSSOIR_SHARE_DIR}/scripts USE_SOURCE_PERMISSIONS FILES_MATCHING PATTERN "*.py"
   PATTERN __pycache__ EXCLUDE PATTERN mutants.py EXCLUDE PATTERN coverage.py EXCLUDE PATTERN function_lengths.py EXCLUDE
-  PATTERN check_imports.py EXCLUDE PATTERN site.py EXCLUDE)
+  PATTERN check_imports.py EXCLUDE PATTERN site.py EXCLUDE PATTERN reference.py EXCLUDE)
 install(DIRECTORY examples prm meshes studies DESTINATION ${VOUSSOIR_SHARE_DIR} PATTERN __pycache__ EXCLUDE)
 # The scripts look for the package in ../python, whichever Python runs them.
 install(DIRECTORY python/voussoir DESTINATION ${VOUSSOIR_PYTHON_DIR} PATTERN __pycache__ EXCLUDE)

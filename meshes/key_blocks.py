@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the meshes of prm/keys_meshed.prm and prm/keys_law.prm: two blocks side by side with a vertical joint, which has
+"""Writes the meshes of benchmarks/keys_meshed.prm and keys_law.prm: two blocks side by side with a vertical joint, which has
 a vertical shear key that is meshed, or is flat. Gmsh MSH 2.2, shared nodes: the program opens the joint.
 
     meshes/key_blocks.py [--output meshes] [--angle 45] [--height 0.2] [--refine 1]

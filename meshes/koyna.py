@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the mesh of prm/koyna.prm: a slice of a monolith of Koyna Dam (103 m high) for plane strain. Gmsh MSH 2.2.
+"""Writes the mesh of examples/section: a slice of a monolith of Koyna Dam (103 m high) for plane strain. Gmsh MSH 2.2.
 
     meshes/koyna.py [--output meshes/koyna.msh] [--cells 8 20] [--along 1] [--thickness 1]
 

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the mesh of prm/zones.prm: two monoliths of a gravity dam of three concretes on flat ground of three rocks. Gmsh
+"""Writes the mesh meshes/zones.msh of the tests: two monoliths of a gravity dam of three concretes on flat ground of three rocks. Gmsh
 MSH 2.2, shared nodes: the program opens the joint.
 
     meshes/zones.py [--output meshes]

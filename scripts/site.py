@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Builds the site: README, tutorials, all pages of doc/ and examples/, the reference of all entries, with search (MkDocs with the
-theme Material, Debian: mkdocs-material).
+"""Builds the site: README, tutorials, all pages of doc/ and examples/, with search (MkDocs with the theme Material, Debian:
+mkdocs-material).
 
-    scripts/site.py [--output build/site] [--voussoir build/voussoir]
+    scripts/site.py [--output build/site]
 
 A link to a page or figure that is not there is an error, and so is a page without a place in NAVIGATION.
 `python3 -m http.server -d build/site` shows the site. The search needs a server.
@@ -21,12 +21,12 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
 MATHJAX = Path("/usr/share/javascript/mathjax")
-NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.md, parameters: of the program
+NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.md
     "Start": ("index", "install", "tutorials/1_first_run", "limits", "comparison", "read_results", "pages"),
     "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "ensembles", "tutorials/4_rock", "studies", "report",
                "messages", "parallel"),
-    "Reference": ("input_file", "parameters", "output", "mesh", "loads", "python", "base_joints",
-                  "generated/refused_pairs", "glossary", "changes"),
+    "Reference": ("input_file", "generated/entries", "generated/commands", "output", "generated/columns", "mesh", "loads", "python",
+                  "base_joints", "generated/refused_pairs", "glossary", "changes"),
     "Examples": ("examples/README", *(f"examples/{name}/README" for name in ("first_run", "own_dam", "keys", "base_joint", "rock", "water", "ensemble",
                                                                              "section", "bricks"))),
     "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
@@ -76,23 +76,6 @@ def stage(pages):
         page.write_text(text, encoding="utf-8")
 
 
-def reference(pages, program):
-    """parameters.md: a table of entries for each section, by the program."""
-    def table(tree, path):
-        own = {name: child for name, child in tree.items() if "pattern_description" in child}
-        lines = [f"\n## {'/'.join(path)}\n\n| entry | default | meaning |\n|---|---|---|"] if own else []
-        for name, entry in own.items():
-            default = f"`{entry['default_value']}`".replace("|", "\\|") if entry["default_value"] else ""
-            lines.append(f"| `{'/'.join([*path, name])}` | {default} | " + entry["documentation"].replace("|", "\\|") + " |")
-        for name, child in tree.items():
-            if name not in own:
-                lines += table(child, [*path, name])
-        return lines
-
-    result = subprocess.run([program, "parameters", "json"], capture_output=True, text=True, check=True)
-    (pages / "parameters.md").write_text("# All entries of a scene\n" + "\n".join(table(json.loads(result.stdout), [])) + "\n", encoding="utf-8")
-
-
 def check_navigation(pages):
     """Ends with a message if NAVIGATION and the pages differ."""
     listed = [name for names in NAVIGATION.values() for name in names]
@@ -133,7 +116,9 @@ def configuration(directory, pages):
             "extra_css": ["tables.css"]}
     formulas(pages)
     (pages / "tables.css").write_text("thead:has(th:empty) { display: none; }\n"
-                                      "div.arithmatex { overflow-x: auto; }\n", encoding="utf-8")
+                                      "div.arithmatex { overflow-x: auto; }\n"
+                                      "@media (max-width: 600px) { .md-typeset table:not([class]) :is(th, td) { min-width: 0; padding: .5em; } }\n",
+                                      encoding="utf-8")
     path = directory / "mkdocs.yml"
     path.write_text(json.dumps(text, indent=1), encoding="utf-8")  # JSON is YAML
     return path
@@ -149,14 +134,12 @@ def has_theme():
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("--output", default=ROOT / "build" / "site", type=Path)
-    parser.add_argument("--voussoir", default=ROOT / "build" / "voussoir", help="the program")
     options = parser.parse_args()
     if not has_theme():
         sys.exit("site: MkDocs or its theme Material is not there (on Debian: apt-get install mkdocs-material).")
     with tempfile.TemporaryDirectory() as temporary:
         directory = Path(temporary)
         stage(directory / "pages")
-        reference(directory / "pages", options.voussoir)
         yml = configuration(directory, directory / "pages")
         return subprocess.run(["mkdocs", "build", "--quiet", "--strict", "--config-file", str(yml), "--site-dir", str(options.output.resolve())],
                               check=False).returncode

@@ -31,7 +31,7 @@ def install():
     cmake, prefix = os.environ["CMAKE"], Path("prefix").absolute()
     does(cmake, "--install", os.environ["BUILD"], "--prefix", str(prefix))
     for file in ("bin/voussoir", "include/voussoir/contact/joint_law.h", "share/voussoir/scripts/figures.py", "share/voussoir/python/voussoir/report.css",
-                 "share/voussoir/prm/quickstart.prm", "share/voussoir/meshes/keys_law.msh", "share/voussoir/examples/keys/scene.prm",
+                 "share/voussoir/prm/quickstart.prm", "share/voussoir/meshes/koyna.msh", "share/voussoir/examples/keys/scene.prm",
                  "share/bash-completion/completions/voussoir"):
         expect((prefix / file).is_file(), f"{file} is not installed")
 
@@ -56,7 +56,7 @@ def install():
     does(program, "scene.prm", "--set", "Output/Figures=true", "--output", "out", environment=environment)
     expect(len(list(Path("out/figures").glob("*.png"))) >= 3, "the installed program drew no figures")
     expect(summary("out")["steps"] > 0, "no steps")
-    does(program, str(prefix / "share/voussoir/prm/keys_law.prm"), "--validate", environment=environment)
+    does(program, str(prefix / "share/voussoir/examples/section/scene.prm"), "--validate", environment=environment)
     completion = (prefix / "share/bash-completion/completions/voussoir").read_text()
     expect(completion == does(program, "completion", "bash"), "the installed completion is not that of the program")
 

@@ -387,7 +387,7 @@ def editor():
 
 def site():
     """Every page of doc/ and examples/ is in the site, no link is broken (MkDocs is strict), every list is a list, and the search finds words."""
-    words = [sys.executable, str(ROOT / "scripts" / "site.py"), "--output", "site", "--voussoir", VOUSSOIR]
+    words = [sys.executable, str(ROOT / "scripts" / "site.py"), "--output", "site"]
     result = subprocess.run(words, capture_output=True, text=True)
     if "theme Material is not there" in result.stderr:
         print("MkDocs or its theme Material is not installed")

@@ -200,8 +200,8 @@ def zones():
 
 
 def plane_strain():
-    """prm/koyna.prm has no warning; dams and models that cannot be in plane strain are refused."""
-    shown = runs(str(HERE.parent / "prm" / "koyna.prm"), "--validate")
+    """examples/section has no warning; dams and models that cannot be in plane strain are refused."""
+    shown = runs(str(HERE.parent / "examples" / "section" / "scene.prm"), "--validate")
     expect("plane strain" in shown and "warning" not in shown, shown)
     write_scene()
     run = ["scene.prm", "--validate"]

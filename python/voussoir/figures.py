@@ -54,6 +54,11 @@ ENVELOPES = [("max_principal", "maximum principal stress", "envelope_{}"), ("min
     for name in ("arch", "cantilever", "vertical") for end, suffix in (("max", ""), ("min", "_compression"))]
 
 
+def median_of(run):
+    """Words of a title: the faces of an ensemble are medians."""
+    return f", median of {run.ensemble.n} motions" if run.ensemble else ""
+
+
 def envelopes(runs, save):
     for column, kind, figure_name in ENVELOPES:
         if "_stress_" in column and not all(column in face for run in runs for face in run.faces.values()):
@@ -69,8 +74,7 @@ def envelopes(runs, save):
                     print(f"figures: skipped {figure_name.format(name)}: {reason}")
                     plt.close(figure)
                     continue
-                median = f", median of {run.ensemble.n} motions" if run.ensemble else ""
-                axes.set_title(f"{run.heading}\n{name.capitalize()} face: envelope of {kind}{median}", pad=10)
+                axes.set_title(f"{run.heading}\n{name.capitalize()} face: envelope of {kind}{median_of(run)}", pad=10)
                 stress_bar(figure, contours, axes, levels, kind.split()[1], fraction=0.05, pad=0.16, aspect=45)
                 save(run, figure, figure_name.format(name))
 
@@ -83,7 +87,8 @@ def demands(runs, save):
         for name in FACES:
             figure, axes = plt.subplots(figsize=(10, 2.3 + 8.8 * aspect(run)))
             demand_bar(figure, draw_demand(axes, run, name, run.static_strength), axes, fraction=0.05, pad=0.16, aspect=45)
-            axes.set_title(f"{run.heading}\n{name.capitalize()} face: demand-capacity ratio, static strength {1e-6 * run.static_strength:.3g} MPa", pad=10)
+            axes.set_title(f"{run.heading}\n{name.capitalize()} face: demand-capacity ratio{median_of(run)}, "
+                           f"static strength {1e-6 * run.static_strength:.3g} MPa", pad=10)
             save(run, figure, f"demand_{name}")
     for run in runs:
         figure, axes = plt.subplots(figsize=(6, 4))

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""results.csv of a study: a row per scene with its factors and what its run gave (columns: doc/studies.md)."""
+"""results.csv of a study: a row per scene with its factors and what its run gave (columns: scripts/columns.txt)."""
 
 import csv
 from pathlib import Path

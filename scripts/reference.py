@@ -1,0 +1,130 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Writes the reference pages of doc/generated: columns.md from scripts/columns.txt, and with the program entries.md and commands.md.
+
+    scripts/reference.py [--voussoir build/voussoir] [--check]
+
+--check writes nothing, and ends with status 1 if a page is not up to date. Without --voussoir it checks columns.md only.
+"""
+
+import argparse
+import json
+import re
+import subprocess
+import sys
+from itertools import product
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parent.parent
+PAGES = ROOT / "doc" / "generated"
+NOTE = "<!-- Written by scripts/reference.py. -->\n"
+
+
+def columns():
+    """{file: (purpose, [(name, unit, meaning)])} of scripts/columns.txt."""
+    files, rows = {}, []
+    for number, line in enumerate((ROOT / "scripts" / "columns.txt").read_text(encoding="utf-8").splitlines(), 1):
+        if head := re.fullmatch(r"\[(.*)\] (.*)", line):
+            rows = []
+            files[head[1]] = head[2], rows
+        elif line and not line.startswith("#"):
+            row = tuple(part.strip() for part in line.split(" | "))
+            if len(row) != 3 or not files:
+                sys.exit(f"reference: scripts/columns.txt:{number} is not NAME | UNIT | MEANING")
+            rows.append(row)
+    return files
+
+
+def expanded(name):
+    """The names that a name with {a,b} stands for."""
+    parts = [part.split(",") if i % 2 else [part] for i, part in enumerate(re.split(r"\{(.*?)\}", name))]
+    return ["".join(choice) for choice in product(*parts)]
+
+
+def shown(name):
+    """A name as the cell of a table: choices of words are spelled out, if there are few."""
+    names = expanded(re.sub(r"\{((?:\w{1,2},)+\w{1,2})\}", lambda match: f"<{match[1].replace(',', ';')}>", name))
+    names = [re.sub(r"<(.*?)>", lambda match: f"{{{match[1].replace(';', ',')}}}", one) for one in names]
+    return "<br>".join(f"`{one}`" for one in (names if len(names) < 8 else [name]))
+
+
+def columns_page():
+    """doc/generated/columns.md."""
+    text = NOTE + """# Columns, fields and keys
+
+SI units; tensile stress is positive; [output files](../output.md) explains the terms.
+`{a,b}` denotes several names, K the number of a joint or monolith from the right bank, NAME the name of a probe, wedge or zone,
+DEPTH a depth, and `*` each element of a list. Points separate the keys of JSON.
+"""
+    for name, (purpose, rows) in columns().items():
+        text += f"\n## {name}\n\n{purpose}.\n\n| Name | Unit | Meaning |\n|---|---|---|\n"
+        text += "".join(f"| {shown(column)} | {unit} | {meaning} |\n" for column, unit, meaning in rows)
+    return text
+
+
+def entries_page(program):
+    """doc/generated/entries.md: a table for each section."""
+    def table(tree, path):
+        own = {name: child for name, child in tree.items() if "pattern_description" in child}
+        text = f"\n## {'/'.join(path)}\n\n| Entry | Default | Meaning |\n|---|---|---|\n" if own else ""
+        for name, entry in own.items():
+            default = f"`{entry['default_value']}`" if entry["default_value"] else ""
+            text += f"| `{'/'.join([*path, name])}` | {escape(default)} | {meaning(entry)} |\n"
+        return text + "".join(table(child, [*path, name]) for name, child in tree.items() if name not in own)
+
+    return NOTE + "# Entries of the input file\n\n`voussoir parameters` prints the same.\n" + table(json.loads(output(program, "parameters", "json")), [])
+
+
+def commands_page(program):
+    """doc/generated/commands.md: the help of the program."""
+    return NOTE + "# Commands\n\n" + "".join(f"    {line}".rstrip() + "\n" for line in output(program, "--help").splitlines())
+
+
+def meaning(entry):
+    """The text of an entry, with a line for each choice and links to the pages that it names."""
+    text = re.sub(r"doc/(\w+)\.md", r"[\1](../\1.md)", escape(entry["documentation"]))
+    choices = re.match(r"\[(?:Selection|Bool) ?(.*?) ?\]", entry["pattern_description"])
+    for choice in (choices[1] or "true|false").split("|") if choices else ():
+        text = re.sub(rf"(?:^|(?<=\.) |; ){re.escape(choice)}: ", f"<br>`{choice}`: ", text)
+    return text.removeprefix("<br>")
+
+
+def escape(text):
+    return text.replace("|", "\\|").replace("<", "&lt;")
+
+
+def output(program, *words):
+    return subprocess.run([program, *words], capture_output=True, text=True, check=True).stdout
+
+
+def pages(program):
+    """{path: text} of the pages; without a program that of the columns."""
+    made = {"columns.md": columns_page()}
+    if program:
+        made |= {"entries.md": entries_page(program), "commands.md": commands_page(program)}
+    return {PAGES / name: text for name, text in made.items()}
+
+
+def stale(program=None):
+    """Messages about pages that are not up to date."""
+    return [f"{path.relative_to(ROOT)} is not up to date: run scripts/reference.py" for path, text in pages(program).items()
+            if not path.is_file() or path.read_text(encoding="utf-8") != text]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--voussoir", type=Path, help="the program, by default build/voussoir")
+    parser.add_argument("--check", action="store_true", help="write nothing")
+    options = parser.parse_args()
+    if options.check:
+        errors = stale(options.voussoir)
+        for error in errors:
+            print(error, file=sys.stderr)
+        return 1 if errors else 0
+    for path, text in pages(options.voussoir or ROOT / "build" / "voussoir").items():
+        path.write_text(text, encoding="utf-8")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
