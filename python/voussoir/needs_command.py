@@ -275,7 +275,8 @@ class Needs:
         self.run_all()
         best = {where: max((self.motions_of(where, mode) for mode in ("batch", "single")), key=len) for where in {mesh, "scene"}}
         mesh_error = paired(best["coarse"], best["scene"])["changes"] if self.coarse else {}
-        scatter = scatter_of(best[mesh])
+        batch, single = (self.motions_of(mesh, mode) for mode in ("batch", "single"))
+        scatter = scatter_of({k: {**single.get(k, {}), **batch.get(k, {})} for k in {*batch, *single}})
         for row in self.rows:
             if "failure" not in row:
                 row.update(paired(row["motions"], self.motions_of(row["reference"], row["mode"])))

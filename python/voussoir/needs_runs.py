@@ -31,6 +31,7 @@ VERSION = b"needs 2"  # of what this module reads of a run: other runs are made 
 BATCH, OF_BATCH = 16, 0.75  # motions of a batch, and its work over that of an explicit run
 IN_TURN = "one after another, because"  # in the log of an ensemble that cannot run in batches
 PATIENCE = 3.  # processor time over work, above which a run is ended
+FAILED = 2.  # work of a run that fails at its beginning
 
 
 def with_numbers(result: Dict[str, Any]) -> Dict[str, Any]:
@@ -119,8 +120,8 @@ class Runs:
     def motion(self, settings: Mapping[str, Any], whole: bool = False) -> Path:
         """Returns the file of a motion with these settings, or of its strongest seconds."""
         entries = {entry: value for entry, value in self.entries_with(settings).items() if entry.startswith("Motion/")}
-        digest = digest_of(self.scene, {**entries, "seconds": "all" if whole else str(self.seconds)})[:16]
-        file = self.directory / "motions" / f"{digest}.csv"
+        digest = digest_of(self.scene, {**entries, "seconds": str(self.seconds)})[:16]
+        file = self.directory / "motions" / f"{digest}{'-whole' if whole else ''}.csv"
         if not file.exists():
             new = file.with_suffix(f".{threading.get_ident()}.new")
             call("motion", self.scene, "--output", new, *set_options(settings))
@@ -198,23 +199,22 @@ class Runs:
     def compute(self, directory: Path, settings: Dict[str, Any], allowance: float, half_run: bool) -> Dict[str, Any]:
         """Starts the program: from a checkpoint of the same run, and on rock with the number of substeps that the message requires."""
         resume = half_run and (directory / "checkpoint.bin").exists()
-        status, text, cpu = self.start(directory, settings, allowance, "--resume" if resume else "--overwrite")
+        status, text = self.start(directory, settings, allowance, "--resume" if resume else "--overwrite")
         changes: Dict[str, Any] = {}
         if resume and status == 2:
-            status, text, cpu = self.start(directory, settings, allowance, "--overwrite")
+            status, text = self.start(directory, settings, allowance, "--overwrite")
         if status == 2 and (needed := re.search(rf'"{SUBSTEPS}" to (\d+)', text)):
             changes = {SUBSTEPS: needed[1]}
-            status, text, cpu = self.start(directory, {**settings, **changes}, allowance, "--overwrite")
+            status, text = self.start(directory, {**settings, **changes}, allowance, "--overwrite")
         if status == 0 or status == 1 and settings.get("Motion/Ensemble") and (directory / "motion-1" / "summary.json").exists():
             return {"changes": changes}
-        if status in (-24, -9) and not self.stopped:
-            return {"failure": f"ended by the cost limit, after {cpu:.3g} s of processor time", "work": cpu}
-        return {"failure": message_of(text, status), "work": cpu, "status": status}
+        if status == -24 and not self.stopped:
+            return {"failure": f"ended by the cost limit, at about {PATIENCE:g} times the work of {allowance:.3g} s", "work": allowance}
+        return {"failure": message_of(text, status), "work": FAILED, "status": status}
 
-    def start(self, directory: Path, settings: Mapping[str, Any], allowance: float, flag: str) -> tuple[int, str, float]:
-        """Status, messages and an upper bound of the processor time of one start of the program."""
+    def start(self, directory: Path, settings: Mapping[str, Any], allowance: float, flag: str) -> tuple[int, str]:
+        """Status and messages of one start of the program."""
         words = [find_program(), str(self.scene), "--output", str(directory), "--quiet", flag, *set_options(settings)]
-        began = time.monotonic()
         with subprocess.Popen(words, stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                               start_new_session=True, env={**os.environ, "OMP_NUM_THREADS": str(self.threads)}) as process:
             self.processes.add(process)
@@ -223,14 +223,14 @@ class Runs:
                     process.terminate()
                 elif allowance < float("inf"):
                     most = math.ceil(PATIENCE * allowance) + 1
-                    resource.prlimit(process.pid, resource.RLIMIT_CPU, (most, most + 5))
+                    resource.prlimit(process.pid, resource.RLIMIT_CPU, (most, most + 5))  # status -24
                 text = self.messages_of(process, directory / "log.txt" if settings.get("Motion/Ensemble") else None)
             except BaseException:  # the user stops the command while it waits for one run
                 process.terminate()
                 raise
             finally:
                 self.processes.discard(process)
-        return process.returncode, text, min((time.monotonic() - began) * self.threads, allowance)
+        return process.returncode, text
 
     @staticmethod
     def messages_of(process: "subprocess.Popen[str]", log: Optional[Path]) -> str:
