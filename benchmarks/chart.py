@@ -13,7 +13,7 @@ point is the larger one of openings and tension.
   present level with the order of convergence (needs compares single values, accuracy all joints and zones).
 - Simpler model: the larger change of the largest opening and of the tension of both faces, added to the error of the scene by squares.
 - Other model (hollow): the same; the change is the error of the scene if the other model is the better one. Not in the front.
-- Other motions: the same changes by other motions of the spectrum, from the smallest to the largest; one line if only the largest is known.
+- Other motions: half of the range of the results from 16 to 84 % over motions of the spectrum, from the smallest to the largest.
 - Front: the points that no other point beats in cost and error; errors that differ by less than 2 % of their value are equal.
 
 A modelling choice is one that can be made for the same dam, water and earthquake: model of the water, foundation, model and number of the joints,
@@ -54,7 +54,7 @@ KINDS = {"scene": "the scene", "numerical": "numerical choice", "simpler": "simp
 
 
 def results(scene, options):
-    """accuracy.json, the rows of accuracy.csv, needs.json, and the values of other motions."""
+    """accuracy.json, the rows of accuracy.csv, and needs.json."""
     file, folders = ROOT / "prm" / f"{scene}.prm", [options.output / f"{scene}-{command}" for command in ("accuracy", "needs")]
     only = ["--only", options.only] if options.only else []
     for command, folder, more in zip(("accuracy", "needs"), folders, ([], only)):
@@ -63,8 +63,7 @@ def results(scene, options):
             run(options.voussoir, command, file, "--seconds", options.seconds, "--output", folder, *more)
     with open(folders[0] / "accuracy.csv", encoding="utf-8") as table:
         levels = list(csv.DictReader(table))
-    motions = [json.loads(file.read_text())["result"]["values"] for file in sorted((folders[1] / "records").glob("motion-scatter*.json"))]
-    return json.loads((folders[0] / "accuracy.json").read_text()), levels, json.loads((folders[1] / "needs.json").read_text()), motions
+    return json.loads((folders[0] / "accuracy.json").read_text()), levels, json.loads((folders[1] / "needs.json").read_text())
 
 
 def change_of(row, columns=sum(MEASURES.values(), ())):
@@ -109,19 +108,15 @@ def numerical_points(accuracy, levels, needs):
         yield "numerical", name_of(choice, entry, value, accuracy["entries"]), of_level, error
 
 
-def points_of(accuracy, levels, needs, motions):
-    """(kind, name, cost, error) of the scene, of numerical and of modelling choices; smallest and largest change by other motions, or None."""
+def points_of(accuracy, levels, needs):
+    """(kind, name, cost, error) of the scene, of numerical and of modelling choices; smallest and largest scatter of a result over motions, or None."""
     error, cost = max(accuracy["error"].values()), accuracy["cost"]
     points = [("scene", "the scene", cost, error), *numerical_points(accuracy, levels, needs)]
-    largest = []
     for row in needs["rows"]:
         change = change_of(row)
-        if row["name"].startswith("scatter"):
-            largest.append(change)
-        elif change is not None and row["group"] in GROUPS and not set(INPUTS) & set(row["set"]):
+        if change is not None and row["group"] in GROUPS and not set(INPUTS) & set(row["set"]):
             points.append(("simpler" if row["simpler"] else "other", SHORT.get(row["name"], row["name"]), cost * row["cost"], math.hypot(error, change)))
-    reference = needs["reference"]["values"]
-    scatter = [max(abs(values[c] / reference[c] - 1) for columns in MEASURES.values() for c in columns) for values in motions] or largest
+    scatter = [needs["scatter"][column] for columns in MEASURES.values() for column in columns if needs["scatter"][column]]
     return points, (min(scatter), max(scatter)) if scatter else None
 
 
@@ -169,7 +164,7 @@ def draw(axes, scene, points, band, with_peers):
     front = front_of(points)
     if band:
         low, high = (100 * band[0] / 1.01, 100 * band[1] * 1.01)
-        axes.axhspan(low, high, color="0.91", zorder=0, label="other motions" if band[0] < band[1] else "other motions (largest)")
+        axes.axhspan(low, high, color="0.91", zorder=0, label="other motions")
     axes.step([p[2] for p in front], [100 * p[3] for p in front], "-", where="post", color="0.45", linewidth=1.1, zorder=1, label="front")
     for kind, (mark, edge, face, size) in MARKS.items():
         chosen = [p for p in points if p[0] == kind]

@@ -9,6 +9,7 @@ import fcntl
 import json
 import re
 import os
+import subprocess
 import sys
 from pathlib import Path
 
@@ -166,6 +167,50 @@ def bars():
     of_run()
 
 
+def ensemble():
+    """Error bars of an ensemble with the explicit scheme have three parts: mesh and step by its first motion, motion by its scatter, damping ratio by
+    `voussoir needs` of the same scene."""
+    sys.path.insert(0, str(SCRIPTS.parent / "python"))
+    from voussoir.ensembles import members_of
+    from voussoir.error_bars import bar_text
+    from voussoir.results import load
+    given = {"Motion/Source": "file", "Motion/Ensemble": "a.csv; x.txt,-,z.txt", "Motion/Ensemble factors": "0.5, 1.1, 3", "Motion/Factor": "2", "Motion/Sequence": ""}
+    single = {"Motion/Ensemble": "", "Motion/Ensemble factors": "", "Motion/Ensemble output": "", "Motion/Factor": 2.2}
+    expect(members_of(given, 8) == [{**single, "Motion/File": "a.csv"}, {**single, "Motion/File x": "x.txt", "Motion/File y": "", "Motion/File z": "z.txt"}], "files")
+    given.update({"Motion/Source": "artificial", "Motion/Ensemble": "7; 2-4", "Motion/Ensemble factors": ""})
+    expect([one["Motion/Seed"] for one in members_of(given, 8)] == [7, 2, 3, 4], "seeds")
+    expect(members_of({**given, "Motion/Ensemble": "", "Motion/Seed": "5"}, 2) == [{"Motion/Seed": 5}, {"Motion/Seed": 6}], "seeds from that of the scene on")
+    write_scene()
+    words = [word for entry in ("Motion/Source=artificial", "Motion/File=", "Motion/Duration=1", "Motion/Ensemble=4; 1-3", "Dynamics/Scheme=explicit")
+             for word in ("--set", entry)]
+    text = runs("accuracy", "scene.prm", "--seconds", "1", "--output", "scene-accuracy", "--for", "900%", *words)
+    expect("Explicit step = -1 (now)" in text and "time step +" in text or "time step -" in text, text)
+    runs("scene.prm", "--output", "scene", *words)
+    found, many = load("scene").error_bars, summary("scene")["ensemble"]
+    expect({"max_opening", "max_slip"} <= set(found) and "damping" not in found["max_slip"], f"{found}")
+    for name, bar in found.items():
+        expect(bar["value"] == many[name]["median"] and abs(bar["motion"] / bar["value"] - many[name]["known_68"]) < 1e-12 and bar["n_motions"] == 4, f"{bar}")
+    entries = json.loads(Path("scene-accuracy/accuracy.json").read_text())["entries"]
+    rows = [{"set": {"Damping/Ratio": ratio}, "changes": {"opening": change, "slip": change / 2, "tension_upstream": -.1, "tension_downstream": None, "crest": None}}
+            for ratio, change in (("0.1", -0.4), ("0.03", 0.2))] + [{"set": {"Joints/Friction": "1"}, "changes": {"opening": 9.}}]
+    Path("scene-needs").mkdir()
+    Path("scene-needs/needs.json").write_text(json.dumps({"entries": {**entries, "Output/Figures": "true"}, "rows": rows}))
+    found = load("scene").error_bars
+    opening = found["max_opening"]
+    expect(opening["ratios"] == [0.03, 0.1] and np_close(opening["damping"], [-0.4 * opening["value"], 0.2 * opening["value"]]), f"{opening}")
+    expect("max_tension_upstream_away_from_base" not in found or found["max_tension_upstream_away_from_base"]["damping"][1] == 0., f"{found}")
+    text = bar_text("max_opening", opening)
+    expect(re.search(r"mm, mesh and step \S+ to \S+ mm, motion -\S+ to \+\S+ mm \(68 %, 4 motions\), damping ratio 3 to 10 % -\S+ to \+\S+ mm$", text), text)
+    result = subprocess.run([sys.executable, SCRIPTS / "report.py", "--", "scene"], capture_output=True, text=True, timeout=100)
+    expect(result.returncode == 0 and "damping ratio 3 to 10 %" in Path("scene/report.html").read_text(), result.stderr)
+    Path("scene-needs/needs.json").write_text(json.dumps({"entries": {**entries, "Joints/Friction": "0.7"}, "rows": rows}))
+    expect("damping" not in load("scene").error_bars["max_opening"], "the damping of another scene")
+
+
+def np_close(a, b):
+    return all(abs(x - y) < 1e-12 for x, y in zip(a, b))
+
+
 def of_run():
     """voussoir.load(DIR).error_bars: only of the same scene; Output/ does not matter."""
     from voussoir.errors import InputError
@@ -320,4 +365,4 @@ def table_of_text(name):
 
 
 if __name__ == "__main__":
-    run_cases(command, on_rock, water, maths, bars)
+    run_cases(command, on_rock, water, maths, bars, ensemble)

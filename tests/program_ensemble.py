@@ -255,10 +255,6 @@ def entries():
     runs("motion", "scene.prm", "--output", "n.csv", *settings("Motion/Seed=3", "Motion/Factor=2"))
     expect("the first one, seed 3" in shown and Path("m.csv").read_bytes() == Path("n.csv").read_bytes(), "the motion of an ensemble is the first")
     refused(scene("Motion/Ensemble=1-4", "Motion/Ensemble output=1.5"), "no whole number")
-    write("many.prm", ARTIFICIAL + "subsection Motion\n  set Ensemble = 1-4\nend\n")
-    for command in ("accuracy", "needs"):
-        refused([command, "many.prm", "--output", "none"], "Motion/Ensemble", "one motion")
-    expect(not Path("none").exists(), "nothing was written")
     shown = runs("scene.prm", "--validate", *settings("Motion/Ensemble=4294967294-4294967295"))
     expect("2 motions" in shown, "the last seeds")
     runs("scene.prm", "--validate", *settings("Motion/Ensemble=1-4"))

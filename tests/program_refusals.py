@@ -130,8 +130,6 @@ def explicit():
          ("mass-proportional", "uniform")),
         ("Reservoir/Model=acoustic", ("acoustic water",)),
         ("Dynamics/Impact=paper", ("rule of impact",)), ("Dynamics/Explicit step=0", ("Explicit step",))))
-    refused(["accuracy", "--output", "bars", *settings("Dynamics/Scheme=explicit", "Damping/Model=uniform"), "--", "scene.prm"],
-            "Dynamics/Scheme", "Explicit step")
     text = runs(*uniform, "--output", "limit")
     critical = float(re.search(r"step of an explicit scheme for the dam (\S+) ms", text)[1]) * 1e-3
     refuse([*uniform, "--validate"], ((f"Dynamics/Explicit step={1.001 * critical}", ("above the critical step", "Explicit step")),))

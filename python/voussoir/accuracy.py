@@ -15,6 +15,7 @@ With three levels of a choice, the order is fitted and the limit is extrapolated
 is 2, also of the degree: order 3 gave half of the error of degree 2 on an unseen dam. The error of a level is the distance
 to the limit. Errors of several choices are added as vectors, joint by joint and zone by zone.
 
+An ensemble is represented by its first motion.
 The largest opening, slip, tensions and crest displacement get error bars (error_bars.py). `voussoir report` applies their
 relative width to the whole run. The geometry of a mesh file is taken as given.
 
@@ -36,6 +37,7 @@ import numpy as np
 
 from .command import Parser, lock_directory
 from .error_bars import UNITS, bar_text, bars_of_choices, beside, headlines, relevant, signed, solve_order
+from .ensembles import members_of
 from .errors import ComputationError, InputError
 from .program import call, entries_of, message_of, program_key, set_options, start
 from .results import Results, read_summary
@@ -43,6 +45,7 @@ from .study_file import AS_IT_IS, is_file_entry
 from .tables import read_table
 from .zone_tension import zone_means
 
+EXPLICIT_STEP = "Dynamics/Explicit step"
 STEPS, SUBSTEPS, DEGREE = "Dynamics/Steps per sample", "Foundation/Substeps", "Elements/Degree"
 SUBDIVIDE = "Mesh/Subdivide"
 WATER_SIZE, WATER_LENGTH, WATER_LEVEL = "Reservoir/Element size", "Reservoir/Length", "Reservoir/Water level"
@@ -148,6 +151,12 @@ def water_depth(scene, settings):
     rows = json.loads(call("scene", scene, "--choices", *set_options(settings)))["choices"]
     lower = next((float(row["set"][WATER_LEVEL]) for row in rows if list(row["set"]) == [WATER_LEVEL]), None)
     return 0. if lower is None else 10 * (float(entries_of(scene, settings)[WATER_LEVEL]) - lower)
+
+
+def explicit_steps(scene, settings, now):
+    """Time steps of the explicit scheme: that of the scene, whose length --validate prints, and half of it."""
+    step = re.search(r"^Explicit +\d+ steps? of ([0-9.]+) ms", call(scene, "--validate", *set_options(settings)), re.M)
+    return Choice("time step", [{EXPLICIT_STEP: now}, {EXPLICIT_STEP: f"{5e-4 * float(step[1]):.4g}"}], [1, 1 / 2], 0)
 
 
 def strongest(motion, seconds):
@@ -338,11 +347,8 @@ def number(text, what, unit=""):
     return value
 
 
-def expect_one_record(scene, entries):
-    """Throws InputError for a scene with several motions, or with other motions of the banks, whose strongest part is not cut."""
-    if entries["Motion/Ensemble"]:
-        raise InputError(f"the scene {scene} has Motion/Ensemble, but this command compares runs with one motion. Choose it: --set Motion/Ensemble= "
-                         "--set \"Motion/Ensemble factors=\" --set \"Motion/Ensemble output=\" and, for example, --set Motion/Seed=1.")
+def expect_no_abutments(scene, entries):
+    """Throws InputError for a scene with other motions of the banks, whose strongest part is not cut."""
     if entries["Motion/Abutments"]:
         raise InputError(f"the scene {scene} has Motion/Abutments, but the strongest part of the motion is cut from one record. Use the same motion "
                          "at all base nodes: --set Motion/Abutments=")
@@ -354,10 +360,8 @@ def prepare(options, wish):
     entries = entries_of(options.scene, options.set)
     if entries["Motion/Source"] == "none":
         raise InputError(f"the scene {options.scene} has no motion (Motion/Source = none): there is no earthquake to chart.")
-    if entries["Dynamics/Scheme"] == "explicit":
-        raise InputError(f"the scene {options.scene} has Dynamics/Scheme = explicit, whose time error does not depend on {STEPS}. For the error of the "
-                         "mesh give --set Dynamics/Scheme=trapezoidal; for the time error compare runs with two values of Dynamics/Explicit step.")
-    expect_one_record(options.scene, entries)
+    expect_no_abutments(options.scene, entries)
+    options.set += [f"{entry}={value}" for entry, value in members_of(entries, 1)[0].items()]
     if entries["Output/Envelope interval"] == "0":
         options.set.append("Output/Envelope interval=1")
     directory = Path(options.output or f"output/{Path(options.scene).stem}-accuracy")
@@ -369,6 +373,8 @@ def prepare(options, wish):
     common = dict(entry.split("=", 1) for entry in options.set)
     common.update({**AS_IT_IS, "Motion/File": motion, "Output/Figures": "false", "Output/Solution interval": 0})
     choices = choices_of(entries, Path(options.scene).parent)
+    if entries["Dynamics/Scheme"] == "explicit":
+        choices[0] = explicit_steps(options.scene, common, entries[EXPLICIT_STEP])
     if entries["Reservoir/Model"] == "acoustic" and (depth := water_depth(options.scene, options.set)) > 0:
         choices += water_choices(entries, depth, lambda size: water_mass_factor(options.scene, {**common, WATER_SIZE: size}))
     n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results of many motions in one output directory (Motion/Ensemble): a row per motion, and the fractiles over the motions."""
 
+import math
 from functools import cached_property
 from pathlib import Path
 
@@ -19,6 +20,30 @@ SCATTER = {"openings": 25, "tensions": 10}
 def numbers(column):
     """Numbers of a column; nan for an empty cell. Throws ValueError for a text."""
     return np.array([float(text) if str(text).strip() else np.nan for text in column])
+
+
+def members_of(entries, n):
+    """Settings that reduce a scene to one motion, for each motion of its ensemble (with several factors those with the factor nearest to 1), or for
+    n artificial motions with the seeds from its own on; one motion if the scene has another source."""
+    text, single = entries["Motion/Ensemble"], {f"Motion/Ensemble{name}": "" for name in ("", " factors", " output")}
+    if entries["Motion/Source"] == "artificial" and not text and not entries["Motion/Sequence"]:
+        seed = int(entries["Motion/Seed"])
+        return [{"Motion/Seed": seed + k} for k in range(n)]
+    if not text:
+        return [{}]
+    if factors := [float(word) for word in entries["Motion/Ensemble factors"].split(",") if word.strip()]:
+        single["Motion/Factor"] = float(entries["Motion/Factor"]) * min(factors, key=lambda factor: abs(math.log(factor)))
+    members = []
+    for element in text.split(";"):
+        files = [word.strip() for word in element.split(",")]
+        if entries["Motion/Source"] == "artificial":
+            first, _, last = element.partition("-")
+            members += [{**single, "Motion/Seed": seed} for seed in range(int(first), int(last or first) + 1)]
+        elif len(files) == 1:
+            members.append({**single, "Motion/File": files[0]})
+        else:
+            members.append({**single, **{f"Motion/File {axis}": "" if file == "-" else file for axis, file in zip("xyz", files)}})
+    return members
 
 
 class Ensemble:

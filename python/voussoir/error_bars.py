@@ -8,6 +8,9 @@ order is taken. The centre of the bar is the value plus the signed errors of all
 The doubt of a choice is the largest of: the extrapolated part of its signed error (limit minus finest level); without a fit of three levels
 the largest difference between them; the median of its relative signed errors of all quantities, since the error of one quantity may be small
 by chance. The margin on both sides of the centre is MARGIN times the root of the sum of squares of the doubts.
+
+This bar is the part of mesh and step. An ensemble, whose value is the median over its motions, adds the part of the motion: how well the median is
+known. `voussoir needs` of the scene adds the part of the damping ratio: the paired changes by its rows of other ratios.
 """
 
 import json
@@ -28,16 +31,19 @@ MARGIN = 1.25
 UNRELATED = ("Output/", "Contact/Write")  # beginnings of entries that do not change the results
 
 OF_STRESSES = ("Output/Stress recovery", "Output/Envelope interval")
+RATIO = "Damping/Ratio"
+COLUMNS = {"max_opening": "opening", "max_slip": "slip", f"max_tension_upstream{AWAY}": "tension_upstream",  # of `voussoir needs`
+           f"max_tension_downstream{AWAY}": "tension_downstream", "crest_displacement": "crest"}
 SMALLEST_SHARE = 0.5  # of a value in the window, relative to that of the run: below, the window does not show this value
 
 
 def headlines(summary, history):
-    """Largest values of a run from summary.json and history.csv: {quantity: value [m, Pa]}, of those with a bar.
+    """Largest values of a run from summary.json and history.csv (None: of an ensemble, their medians): {quantity: value [m, Pa]}, of those with a bar.
 
     crest_displacement is the largest |crest_x| over time. Openings, slips and displacements below 0.01 mm are left out."""
-    extremes = summary.get("extremes", {})
-    found = {name: extremes[name]["value"] for name in HEADLINES if name in extremes}
-    if "crest_x" in history:
+    extremes, kind = (summary["ensemble"], "median") if "ensemble" in summary else (summary.get("extremes", {}), "value")
+    found = {name: extremes[name][kind] for name in HEADLINES if name in extremes}
+    if history and "crest_x" in history:
         found["crest_displacement"] = float(abs(history["crest_x"]).max())
     return {name: float(value) for name, value in found.items() if isinstance(value, (int, float)) and value > HEADLINES[name][2]}
 
@@ -112,17 +118,17 @@ def scene_name(directory, summary):
     return Path(scene).stem if scene.endswith(".prm") else scene
 
 
-def accuracy_of_scene(directory, scene, file, read):
-    """What read() returns of an accuracy.json, for the scene of a run in this directory. Throws InputError if the file is of another scene, or of
-    another version of the command."""
-    again = f"run voussoir accuracy {scene}.prm"
+def accuracy_of_scene(directory, scene, file, read, command="accuracy"):
+    """What read() returns of an accuracy.json, or of the file of another command, for the scene of a run in this directory. Throws InputError if the
+    file is of another scene, or of another version of the command."""
+    again = f"run voussoir {command} {scene}.prm"
     try:
         found = json.loads(file.read_text(encoding="utf-8"))
-        entries, result = found["entries"], read(found)
+        entries, result = relevant(found["entries"]), read(found)
         mine = relevant({entry: value for entry, (value, _) in read_entries((Path(directory) / "scene.prm").read_text(encoding="utf-8")).items()})
         differs = next((entry for entry in sorted({*entries, *mine}) if entries.get(entry) != mine.get(entry)), None)
     except (ArithmeticError, AttributeError, KeyError, OSError, RecursionError, TypeError, ValueError) as error:
-        raise InputError(f"{file} is not of this version of voussoir accuracy ({type(error).__name__}): {again}") from error
+        raise InputError(f"{file} is not of this version of voussoir {command} ({type(error).__name__}): {again}") from error
     if differs:
         raise InputError(f"{file} is of another scene ({differs} = {entries.get(differs)}, here {mine.get(differs)}): {again}")
     return result
@@ -132,7 +138,8 @@ def bars_of_run(directory, summary, history):
     """Error bars of the largest values of a run: {quantity: {"value", "combined", "low", "high", "parts", "unit"}} [m, Pa].
 
     The bars of `voussoir accuracy` are of the strongest seconds; their relative errors apply to the values of the run. A value that is below half
-    of the one of the run in these seconds has no bar.
+    of the one of the run in these seconds has no bar. Further parts, if they are known: "motion" and "n_motions", half of the interval that contains the
+    median over all motions with 68 %; "damping" and "ratios", the smallest and largest change by these damping ratios.
     Throws InputError if there is no accuracy.json of the same scene."""
     def bars_in(found):
         bars = {name: found["error_bars"][name] for name in HEADLINES if name in found["error_bars"]}
@@ -144,9 +151,32 @@ def bars_of_run(directory, summary, history):
     if file is None:
         raise InputError(f"no error bar: run voussoir accuracy {scene}.prm")
     try:
-        return accuracy_of_scene(directory, scene, file, bars_in)
+        bars = accuracy_of_scene(directory, scene, file, bars_in)
     except InputError as error:
         raise InputError(f"no error bar: {error}") from error
+    of_motions, (changes, ratios) = summary.get("ensemble", {}), changes_by_damping(directory, scene)
+    for name, found in bars.items():
+        if isinstance(known := of_motions.get(name, {}).get("known_68"), (int, float)):
+            found.update(motion=known * found["value"], n_motions=of_motions["n"])
+        if name in changes:
+            found.update(damping=[change * found["value"] for change in changes[name]], ratios=ratios)
+    return bars
+
+
+def changes_by_damping(directory, scene):
+    """Smallest and largest relative change of each quantity by the damping ratios of `voussoir needs` of the same scene, and these ratios [-]; without
+    results of the command {} and []."""
+    def read(found):
+        rows = [row for row in found["rows"] if list(row["set"]) == [RATIO] and row.get("changes")]
+        changes = {name: [float(row["changes"][column]) for row in rows] for name, column in COLUMNS.items()
+                   if rows and all(row["changes"][column] is not None for row in rows)}
+        return {name: (min(0., *of), max(0., *of)) for name, of in changes.items()}, sorted(float(row["set"][RATIO]) for row in rows)
+
+    file = beside(directory, scene, "needs", "needs.json")
+    try:
+        return accuracy_of_scene(directory, scene, file, read, "needs") if file else ({}, [])
+    except InputError:
+        return {}, []
 
 
 def scaled(bar_of_window, value):
@@ -159,10 +189,20 @@ def scaled(bar_of_window, value):
 
 
 def bar_text(name, found):
-    """Error bar of a quantity, such as "largest opening 57.1 mm, -0.4 to +1.6 mm"."""
+    """Error bar of a quantity, such as "largest opening 57.1 mm, -0.4 to +1.6 mm"; with its other parts, "largest opening 57.1 mm, mesh and step -0.4 to
+    +1.6 mm, motion -4.3 to +4.3 mm (68 %, 8 motions), damping ratio 3 to 10 % -22 to +14 mm"."""
     scale, unit = UNITS[found["unit"]]
-    below, above = (signed(scale * (found[end] - found["value"])) for end in ("low", "high"))
-    return f"{HEADLINES[name][0]} {scale * found['value']:.4g} {unit}, {below} to {above} {unit}"
+
+    def interval(low, high):
+        return f"{signed(scale * low)} to {signed(scale * high)} {unit}"
+
+    parts = [interval(*(found[end] - found["value"] for end in ("low", "high")))]
+    if "motion" in found:
+        parts.append(f"motion {interval(-found['motion'], found['motion'])} (68 %, {found['n_motions']:.0f} motions)")
+    if "damping" in found:
+        ratios = dict.fromkeys(f"{100 * found['ratios'][k]:g}" for k in (0, -1))
+        parts.append(f"damping ratio {' to '.join(ratios)} % {interval(*found['damping'])}")
+    return f"{HEADLINES[name][0]} {scale * found['value']:.4g} {unit}, {'mesh and step ' if parts[1:] else ''}{', '.join(parts)}"
 
 
 def signed(x):

@@ -4,10 +4,10 @@
     voussoir needs SCENE.prm [--for 5%] [--seconds 5] [--jobs 2] [--only water,rock,joints] [--mesh coarse|scene] [--output DIR]
                    [--set 'Section/Entry=value']...
 
-The program declares the rows of a scene (`voussoir scene SCENE.prm --choices`). Each row is run over the strongest seconds of the motion.
-Rows of the mesh and of cheaper numerics are relative to the mesh of the scene, other rows to a coarse mesh. The smallest scene is run over the
-whole motion. The command takes at most ten times the processor time of the scene. Existing runs of this version are not
-repeated.
+The program declares the rows of a scene (`voussoir scene SCENE.prm --choices`). A row is run with the strongest seconds of several motions, and
+compared with the scene motion by motion: in batches where the explicit scheme applies, elsewhere with one motion, and with others as far as the limit
+of the work allows. Rows of the mesh and of cheaper numerics are relative to the mesh of the scene, other rows to a coarse mesh. The smallest scene is
+run over the whole motions. Existing runs of this version are not repeated.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ import json
 import math
 import os
 import signal
+import threading
 import time
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from pathlib import Path
@@ -23,18 +24,20 @@ from typing import Any, Dict, Iterable, List, Mapping, Optional
 
 import numpy as np
 
-from .accuracy import ROCK_SHARE, expect_one_record, height_of, n_monoliths, number
+from .accuracy import ROCK_SHARE, expect_no_abutments, height_of, n_monoliths, number
 from .command import Parser, lock_directory
+from .ensembles import members_of
 from .errors import ComputationError, InputError
-from .needs_output import draw, print_table, signed, smallest_text, value_text, write_json, write_table
+from .needs_output import change_text, draw, motions_text, print_table, signed, smallest_text, value_text, write_json, write_table
 from .needs_runs import Runs
-from .needs_verdicts import COLUMNS, candidates_of, changes_of, cheapest, judge, merge_scatter, size_of, to_take_back
+from .needs_verdicts import COLUMNS, Motions, candidates_of, cheapest, judge, paired, scatter_of, size_of, to_take_back
 from .program import call, entries_of, set_options
 
 GROUPS = ("water", "foundation", "joints", "loads", "motion", "material", "numerics")
 ALIASES = {"rock": "foundation"}
-MOST = 10.  # cost of the command, in runs of the scene
-RESERVE = 2.  # of it, for the scene and the smallest scenes over the whole motion
+MOTIONS = 8  # artificial motions of a scene with one
+MOST, LEAST = 10., 300.  # limit of the command: work in runs of the scene, but at least this work
+RESERVE = 0.2  # of it, for the comparison of the smallest scenes
 ATTEMPTS = 5  # one proposal, and four with changes taken back
 
 
@@ -79,15 +82,17 @@ class Needs:
         if entries["Motion/Source"] == "none":
             raise InputError(f"the scene {scene} has no motion (Motion/Source = none), so its choices have no effect on an earthquake. "
                              "Set Motion/Source to artificial or file.")
-        expect_one_record(scene, entries)
-        self.rows = [row for row in self.declared() if row["group"] in self.groups]
+        expect_no_abutments(scene, entries)
+        self.rows = [row for row in self.declared() if row["group"] in self.groups and "Motion/Seed" not in row["set"]]
         if not self.rows:
             raise InputError(f"the scene {scene} has no choice in the groups {', '.join(self.groups)}. Give other groups with --only.")
         self.directory = Path(options.get("output") or f"output/{self.scene.stem}-needs").resolve()
         given = os.environ.get("OMP_NUM_THREADS", "")
         threads = int(given) if given.isdecimal() and int(given) > 0 else max(1, len(os.sched_getaffinity(0)) // jobs)
-        self.runs = Runs(self.scene.resolve(), entries, self.directory, self.output_settings(entries), threads)
-        self.runs.seconds = seconds
+        self.runs = Runs(self.scene.resolve(), entries, self.directory, self.output_settings(entries), threads, members_of(entries, MOTIONS))
+        self.runs.seconds, self.numbers = seconds, range(len(self.runs.members))
+        self.found: Dict[Any, Dict[str, Any]] = {}  # runs of the scene
+        self.lock = threading.Lock()
         self.entries, self.began, self.done, self.expected = entries, time.monotonic(), 0, 0
         self.coarse = coarse_mesh(entries, self.scene.resolve().parent) if self.mesh == "coarse" else {}
 
@@ -110,87 +115,104 @@ class Needs:
         """Prints a line for a run that has ended."""
         self.done += 1
         left = (time.monotonic() - self.began) / self.done * max(0, self.expected - self.done)
-        what = run.get("failure") or f"{run['cost']:.3g} s of processor time per second of earthquake"
-        print(f"  {self.done:3d}/{self.expected} {name}: {what}; about {left:.0f} s left", flush=True)
+        what = run.get("failure") or f"work of {run['work']:.3g} s"
+        print(f"  {self.done:3d}/{max(self.done, self.expected)} {name}: {what}; about {left:.0f} s left", flush=True)
 
-    def must_run(self, name: str, changes: Mapping[str, Any], whole: bool = False) -> Dict[str, Any]:
-        """A run without which there is no table. Throws InputError or ComputationError with the message of the program."""
-        run = self.runs.run(name, changes, whole=whole, limited=False)
-        if "failure" in run:
-            raise (InputError if run.get("status") == 2 else ComputationError)(
-                f"the scene {self.scene}{' over its whole motion' if whole else ''} failed, so there is no reference for its choices: {run['failure']}")
-        self.progress(name, run)
+    def reference(self, mesh: str, motion: Optional[int], whole: bool = False) -> Dict[str, Any]:
+        """A run of the scene with its own or with the coarse mesh, which is made once."""
+        with self.lock:
+            key = (mesh, motion, whole)
+            if key not in self.found:
+                name, changes = ("the scene, coarse mesh", self.coarse) if mesh == "coarse" else ("the scene", {})
+                self.found[key] = self.runs.run(name, changes, motion, whole=whole, limited=False)
+            return self.found[key]
+
+    def references(self) -> None:
+        """Runs the scene with one motion, decides on the coarse mesh, and sets the limit of the work. Throws InputError or ComputationError with the
+        message of the program."""
+        self.expected = 1 + len(self.rows)
+        given = {entry: value for entry, value in self.runs.common.items() if entry.startswith("Motion/")}
+        whole = self.runs.motion({**given, **self.runs.members[0]}, True)
+        self.runs.length = float(np.loadtxt(whole, delimiter=",", skiprows=1, usecols=0)[-1])
+        base = self.reference("scene", 0)
+        if "failure" in base:
+            raise (InputError if base.get("status") == 2 else ComputationError)(
+                f"the scene {self.scene} failed, so there is no reference for its choices: {base['failure']}")
+        self.progress("the scene, strongest seconds", base)
+        self.runs.iterations = base["newton"]
+        self.predicted = base["setup"] + base["pace"] * self.runs.length
+        self.total, limit = max(MOST * self.predicted, LEAST), self.runs.limit
+        batch = self.reference("scene", None) if self.fits_batch({}) else base
+        expected = len(self.rows) * max(batch["work"], base["work"])
+        limit.left, limit.largest = (1 - RESERVE) * self.total - self.runs.spent, max(self.predicted, 1.5 * base["work"], LEAST / 10)
+        if self.coarse and (expected < limit.left or "failure" in (run := self.reference("coarse", 0)) or run["pace"] > 0.8 * base["pace"]):
+            self.coarse = {}
+        for row in self.rows:
+            on_scene = not self.coarse or row["group"] == "numerics" or set(row["set"]) & set(self.coarse)
+            row.update(reference="scene" if on_scene else "coarse", motions={}, mode="single")
+
+    def fits_batch(self, changes: Mapping[str, Any]) -> bool:
+        """False if the program cannot run these changes in batches, or if they act in another scheme. The program decides in the other cases."""
+        entries = self.runs.entries_with(changes)
+        return (len(self.numbers) > 1 and entries["Foundation/Model"] == "rigid" and entries["Reservoir/Model"] not in ("acoustic", "incompressible")
+                and not any(entry.startswith(("Contact/", "Dynamics/")) for entry in changes))
+
+    def run_row(self, row: Dict[str, Any], motion: int) -> Dict[str, Any]:
+        """Runs a row with all motions in batches, or else with one motion; adds the values of the motions, or the reason of the failure."""
+        changes = {**(self.coarse if row["reference"] == "coarse" else {}), **row["set"]}
+        name = f"{row['group']} {row['name']}"
+        if motion == 0 and self.fits_batch(changes) and "failure" not in (reference := self.reference(row["reference"], None)):
+            run = self.runs.run(name, changes, None, predicted=reference["work"])
+            if "failure" not in run:
+                return self.adopt(row, run, reference, "batch")
+        reference = self.reference(row["reference"], motion)
+        run = {**reference} if "failure" in reference else self.runs.run(name, changes, motion, predicted=reference["work"])
+        if "failure" not in run:
+            return self.adopt(row, run, reference, "single")
+        if motion == 0:
+            row["failure"] = run["failure"]
         return run
 
-    def references(self) -> Dict[str, Dict[str, Any]]:
-        """Runs of the scene over the strongest seconds, with its own and with the coarse mesh; sets the limit of the cost."""
-        self.expected = 3 + len(self.rows)
-        found = {"scene": self.must_run("the scene, strongest seconds", {})}
-        if self.coarse:
-            run = self.runs.run("the scene, coarse mesh", self.coarse, limited=False)
-            if "failure" not in run and run["cost"] < 0.8 * found["scene"]["cost"]:
-                self.expected += 1
-                self.progress("the scene, coarse mesh", run)
-                found["coarse"] = run
-        if "coarse" not in found:
-            self.coarse = {}
-        self.length = float(np.loadtxt(self.whole_motion(), delimiter=",", skiprows=1, usecols=0)[-1])
-        base = found["scene"]
-        self.predicted = base["setup"] + base["cost"] * self.length
-        limit = self.runs.limit
-        limit.left, limit.largest = (MOST - RESERVE) * self.predicted - self.runs.spent, max(self.predicted, 1.5 * base["cpu"])
-        return found
+    @staticmethod
+    def adopt(row: Dict[str, Any], run: Dict[str, Any], reference: Mapping[str, Any], mode: str) -> Dict[str, Any]:
+        """Adds a run to its row."""
+        row["motions"].update(run["motions"])
+        if len(row["motions"]) == len(run["motions"]):  # the first
+            row.update(mode=mode, where=run["where"], values=run["motions"].get(0, {}), cost=run["pace"] / reference["pace"], extra=run["changes"])
+        return run
 
-    def whole_motion(self) -> Path:
-        """The file of the scene's whole motion."""
-        file = self.directory / "motions" / "whole.csv"
-        call("motion", self.scene, "--output", file, *set_options(self.settings))
-        return file
-
-    def run_row(self, row: Dict[str, Any], references: Mapping[str, Dict[str, Any]]) -> None:
-        """Runs a row against the reference with the same mesh; adds changes, values and cost, or the reason of its failure."""
-        reference = references[row["reference"]]
-        changes = {**(self.coarse if row["reference"] == "coarse" else {}), **row["set"]}
-        run = self.runs.run(f"{row['group']} {row['name']}", changes, predicted=reference["cpu"])
-        row["run"] = run
-        if "failure" in run:
-            row["failure"] = run["failure"]
-            return
-        row["changes"], row["counts"] = changes_of(run["values"], reference["values"])
-        row.update(values=run["values"], where=run["where"], cost=run["cost"] / reference["cost"], extra=run["changes"])
-
-    def run_all(self, references: Mapping[str, Dict[str, Any]]) -> Dict[str, Any]:
-        """Runs the scene over the whole motion and all rows, some at a time. Returns the run over the whole motion."""
-        full: Dict[str, Any] = {}
+    def run_all(self) -> None:
+        """Runs all rows, some at a time; then those that do not run in batches with the next motion, and so on."""
         pool = ThreadPoolExecutor(self.jobs)
         try:
-            futures = {pool.submit(self.runs.run, "the scene, whole motion", {}, whole=True, limited=False): None}
-            for row in self.rows:
-                on_scene = not self.coarse or row["group"] == "numerics" and row["simpler"] or set(row["set"]) & set(self.coarse)
-                row["reference"] = "scene" if on_scene else "coarse"
             # What the smallest scene may adopt first, and of this the cheapest: the cost limit ends the others.
-            order = sorted(self.rows, key=lambda row: (not row["simpler"], row["reference"] == "scene"))
-            futures.update({pool.submit(self.run_row, row, references): row for row in order})
-            for future in as_completed(futures):
-                row = futures[future]
-                if row is None:
-                    full = future.result()
-                    if "failure" in full:
-                        raise ComputationError(f"the scene {self.scene} over its whole motion failed: {full['failure']}")
-                    self.progress("the scene, whole motion", full)
-                else:
-                    future.result()
-                    self.progress(f"{row['group']}: {row['name']}", row.pop("run"))
+            rows = sorted(self.rows, key=lambda row: (not row["simpler"], row["reference"] == "scene"))
+            for motion in self.numbers:
+                futures = {pool.submit(self.run_row, row, motion): row for row in rows}
+                for future in as_completed(futures):
+                    row, run = futures[future], future.result()
+                    if motion == 0:
+                        self.progress(f"{row['group']}: {row['name']}", run)
+                    elif "failure" not in run:
+                        self.progress(f"{row['group']}: {row['name']}, motion {motion + 1}", run)
+                rows = [row for row in rows if row["mode"] == "single" and len(row["motions"]) > motion]
+                self.expected = self.done + len(rows)
         except BaseException:
             self.runs.stop()
             pool.shutdown(cancel_futures=True)
             raise
         pool.shutdown()
-        return full
 
-    def smallest(self, full: Dict[str, Any]) -> Dict[str, Any]:
+    def motions_of(self, mesh: str, mode: str, whole: bool = False) -> Motions:
+        """Values of the scene by motion, from the runs so far."""
+        runs = [run for (of, motion, length), run in self.found.items()
+                if (of, motion is None, length) == (mesh, mode == "batch", whole) and "failure" not in run]
+        return {number: values for run in runs for number, values in run["motions"].items()}
+
+    def smallest(self) -> Dict[str, Any]:
         """Writes, runs and compares the smallest scene; takes changes back until the promise holds."""
         chosen, attempts = cheapest(candidates_of(self.rows), self.target), []
+        n_run = sum("failure" not in row for row in self.rows)
         file = self.directory / "smallest.prm"
         for k in range(ATTEMPTS):
             text, changes = smallest_text(self.scene.resolve(), self.settings, chosen, self.target, self.directory)
@@ -198,37 +220,45 @@ class Needs:
             names = [f"{row['group']}: {row['name']}" for row in chosen]
             if not chosen:
                 attempts.append({"rows": [], "holds": True, "cost": 1., "within": len(COLUMNS), "of": len(COLUMNS)})
-                print("\nSmallest scene: the scene as it is. No combination of cheaper rows stays within the target.")
+                print(f"\nSmallest scene: the scene as it is. No combination of the {n_run} rows that were run (of {len(self.rows)}) is cheaper and stays "
+                      "within the target.")
                 break
-            expected = full["cpu"] * math.prod(row["cost"] for row in chosen)
             print(f"\nSmallest scene, attempt {k + 1}: {'; '.join(names)}")
-            if self.runs.spent + expected > MOST * full["cpu"]:
-                print("    not run: cost limit")
-                attempts.append({"rows": names, "failure": "not run: cost limit", "holds": None})
-                break
-            run = self.runs.run(f"smallest {k + 1}", changes, whole=True, limited=False)
-            attempt, missed = self.compare(run, full)
+            attempt = self.compare(f"smallest {k + 1}", chosen, changes)
             attempts.append({"rows": names, "settings": changes, **attempt})
-            if attempt["holds"] or k + 1 == ATTEMPTS:
+            if attempt["holds"] is not False or k + 1 == ATTEMPTS:
                 break
-            back = to_take_back(chosen, *missed) if missed else max(chosen, key=lambda row: size_of(row["changes"], row["counts"]))
+            back = (to_take_back(chosen, attempt["changes"], attempt["counts"]) if "changes" in attempt
+                    else max(chosen, key=lambda row: size_of(row["changes"], row["counts"])))
             print(f"    The promise does not hold; taken back: {back['group']}: {back['name']}")
             chosen = [row for row in chosen if row is not back]
         return {**attempts[-1], "file": str(file), "attempts": attempts}
 
-    def compare(self, run: Mapping[str, Any], full: Mapping[str, Any]) -> tuple[Dict[str, Any], Any]:
-        """Changes of a smallest scene against the scene, both over the whole motion; and the changes as they count."""
-        if "failure" in run:
-            print(f"    failed: {run['failure']}")
-            return {"failure": run["failure"], "holds": False}, None
-        changes, counts = changes_of(run["values"], full["values"])
-        within = [name for name in COLUMNS if not counts[name] or abs(changes[name] or 0.) <= self.target]
-        cost = run["cpu"] / full["cpu"]
-        shown = [f"{COLUMNS[name].title} {signed(changes[name], counts[name])} %" for name in COLUMNS if changes[name] is not None]
-        print(f"    against the scene, whole motion: {', '.join(shown)}")
-        print(f"    cost {cost:.2f} of the scene; {len(within)} of {len(COLUMNS)} results within {100 * self.target:g} %")
-        return {"changes": changes, "counts": counts, "values": run["values"], "where": run["where"], "cost": cost, "cost_shaking": run["cost"] / full["cost"],
-                "holds": len(within) == len(COLUMNS), "within": len(within), "of": len(COLUMNS)}, (changes, counts)
+    def compare(self, name: str, chosen: List[Dict[str, Any]], changes: Mapping[str, Any]) -> Dict[str, Any]:
+        """Changes of a smallest scene against the scene, motion by motion over the whole motions."""
+        mode = "batch" if all(row["mode"] == "batch" for row in chosen) else "single"
+        expected, motions, first = self.predicted * (1 + math.prod(row["cost"] for row in chosen)), {}, None
+        for motion in [None] if mode == "batch" else self.numbers:
+            if self.runs.spent + expected > self.total:
+                break
+            reference, run = self.reference("scene", motion, True), self.runs.run(name, changes, motion, whole=True, limited=False)
+            for one in (reference, run):
+                if "failure" in one and first is None:
+                    print(f"    failed: {one['failure']}")
+                    return {"failure": one["failure"], "holds": False if one is run else None}
+            motions.update(run.get("motions", {}))
+            first = first or (reference, run)
+        if first is None:
+            print("    not run: cost limit")
+            return {"failure": "not run: cost limit", "holds": None}
+        found, (reference, run) = paired(motions, self.motions_of("scene", mode, True)), first
+        within = [column for column in COLUMNS if not found["counts"][column] or abs(found["changes"][column] or 0.) <= self.target]
+        work = [one["setup"] + one["pace"] * self.runs.length for one in (run, reference)]
+        shown = [f"{COLUMNS[column].title} {change_text(found, column)} %" for column in COLUMNS if found["changes"][column] is not None]
+        print(f"    against the scene, {motions_text(found['n'])}, whole: {', '.join(shown)}")
+        print(f"    cost {work[0] / work[1]:.2f} of the scene; {len(within)} of {len(COLUMNS)} results within {100 * self.target:g} %")
+        return {**found, "values": motions.get(0, {}), "where": run["where"], "cost": work[0] / work[1], "cost_shaking": run["pace"] / reference["pace"],
+                "holds": len(within) == len(COLUMNS), "within": len(within), "of": len(COLUMNS)}
 
     def compute(self) -> Dict[str, Any]:
         """As compute_alone(), with the lock of the directory."""
@@ -238,26 +268,33 @@ class Needs:
     def compute_alone(self) -> Dict[str, Any]:
         """All runs; prints and writes the results, and returns what needs.json has."""
         print(f"{self.scene}: {len(self.rows)} rows, {self.jobs} runs at a time; target {100 * self.target:g} %")
-        references = self.references()
-        reference = references.get("coarse", references["scene"])
-        full = self.run_all(references)
-        mesh_error = changes_of(references["scene"]["values"], reference["values"])[0] if "coarse" in references else {}
+        if len(self.numbers) == 1:
+            print("  One motion: the effects of the choices are those of this motion. Give others with Motion/Ensemble.")
+        self.references()
+        mesh = "coarse" if self.coarse else "scene"
+        self.run_all()
+        best = {where: max((self.motions_of(where, mode) for mode in ("batch", "single")), key=len) for where in {mesh, "scene"}}
+        mesh_error = paired(best["coarse"], best["scene"])["changes"] if self.coarse else {}
+        batch, single = (self.motions_of(mesh, mode) for mode in ("batch", "single"))
+        scatter = scatter_of({k: {**single.get(k, {}), **batch.get(k, {})} for k in {*batch, *single}})
         for row in self.rows:
-            row.pop("run", None)
-        self.rows = merge_scatter(self.rows)
-        judge(self.rows, mesh_error, self.target)
-        print(f"\nReference over {reference['seconds']:g} s: " + ", ".join(value_text(name, reference) for name in COLUMNS))
-        if "coarse" in references:
+            if "failure" not in row:
+                row.update(paired(row["motions"], self.motions_of(row["reference"], row["mode"])))
+        judge(self.rows, mesh_error, self.target, scatter)
+        base = self.found[("coarse" if self.coarse else "scene", 0, False)]
+        reference = {"values": base["motions"][0], "where": base["where"], "n": len(best[mesh]), "seconds": min(self.seconds, self.runs.length)}
+        print(f"\nReference over {reference['seconds']:g} s, first motion: " + ", ".join(value_text(name, reference) for name in COLUMNS))
+        if self.coarse:
             print("  on a coarse mesh; rows with * are relative to the scene's own mesh. Change by the coarse mesh: "
                   + ", ".join(f"{COLUMNS[name].title} {signed(mesh_error[name])} %" for name in COLUMNS if mesh_error[name] is not None))
-        print_table(self.rows, self.target, "coarse" in references)
-        smallest = self.smallest(full)
-        total = self.runs.spent / full["cpu"]
-        result = {"scene": self.scene.stem, "target": self.target, "seconds": self.seconds, "mesh": "coarse" if "coarse" in references else "scene",
-                  "reference": reference, "mesh_error": mesh_error, "full": full, "rows": self.rows, "smallest": smallest, "total_cost": total,
+        print_table(self.rows, self.target, bool(self.coarse), scatter)
+        smallest = self.smallest()
+        total = self.runs.spent / self.predicted
+        result = {"scene": self.scene.stem, "target": self.target, "seconds": self.seconds, "mesh": mesh, "n_motions": len(self.numbers),
+                  "reference": reference, "mesh_error": mesh_error, "scatter": scatter, "rows": self.rows, "smallest": smallest, "total_cost": total,
                   "entries": self.entries}
-        write_table(self.rows, self.directory / "needs.csv")
-        charts = draw(self.rows, self.target, self.directory)
+        write_table(self.rows, self.directory / "needs.csv", scatter)
+        charts = draw(self.rows, self.target, self.directory, scatter)
         write_json(result, self.directory / "needs.json")
         self.conclude(smallest, total, charts)
         return result
@@ -268,7 +305,8 @@ class Needs:
             state = {True: "holds", False: "does not hold", None: "is not tested"}[smallest["holds"]]
             cost = f" at {smallest['cost']:.2f} of the cost" if "cost" in smallest else ""
             print(f"\nThe promise of {100 * self.target:g} % {state}{cost}: {smallest['file']}")
-        print(f"Total     {total:.1f} times one run of the scene (limit {MOST:g})\nTable     {self.directory / 'needs.csv'}, needs.json")
+        print(f"Total     work of {total:.1f} times one run of the scene (limit {self.total / self.predicted:.0f})")
+        print(f"Table     {self.directory / 'needs.csv'}, needs.json")
         print(f"Charts    {', '.join(file.name for file in charts)}\nScene     {smallest['file']}")
 
 

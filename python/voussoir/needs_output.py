@@ -32,6 +32,16 @@ def signed(change: Any, counts: bool = True) -> str:
     return text if counts else f"({text})"
 
 
+def change_text(row: Mapping[str, Any], name: str) -> str:
+    """Median change of a row, and half of its range from 16 to 84 % over the motions."""
+    text, low, high = signed(row["changes"][name], row["counts"][name]), row["low"][name], row["high"][name]
+    return text if low is None or high - low < 1e-4 else f"{text} ±{50 * (high - low):.{1 if high - low < 0.2 else 0}f}"
+
+
+def motions_text(n: int) -> str:
+    return "1 motion" if n == 1 else f"{n} motions"
+
+
 def value_text(name: str, reference: Mapping[str, Any]) -> str:
     """A value with its unit, and the joint or monolith that has it."""
     column, value, where = COLUMNS[name], reference["values"][name], reference["where"].get(name)
@@ -41,35 +51,40 @@ def value_text(name: str, reference: Mapping[str, Any]) -> str:
     return f"{column.title} {column.scale * value:.4g}{' ' + column.unit if column.unit else ''}{place}"
 
 
-def print_table(rows: List[Dict[str, Any]], target: float, marked: bool) -> None:
+def print_table(rows: List[Dict[str, Any]], target: float, marked: bool, scatter: Mapping[str, Any]) -> None:
     """Prints the table of rows. marked: rows of the scene's own mesh have a star."""
-    print(f"\n  {'group':11s}{'row':30s}" + "".join(f"{SHORT[name]:>9s}" for name in COLUMNS) + f"{'cost':>7s}  verdict, change in % of the reference")
+    print(f"\n  {'group':11s}{'row':30s}" + "".join(f"{SHORT[name]:>12s}" for name in COLUMNS) + f"{'motions':>9s}{'cost':>6s}  "
+          "verdict; median change over the motions [%] ± half of its range from 16 to 84 %")
+    if any(scatter.values()):
+        print(f"  {'motion':11s}{'scatter between the motions':30s}"
+              + "".join(f"{f'±{100 * size:.0f}' if (size := scatter[name]) is not None else '-':>12s}" for name in COLUMNS))
     group = None
     for row in rows:
         title = row["group"] if row["group"] != group else ""
         group = row["group"]
         if row.get("changes"):
-            cells = "".join(f"{signed(row['changes'][name], row['counts'][name]):>9s}" for name in COLUMNS) + f"{row['cost']:>7.2f}"
+            cells = "".join(f"{change_text(row, name):>12s}" for name in COLUMNS) + f"{row['n']:>9d}{row['cost']:>6.2f}"
         else:
-            cells = " " * (9 * len(COLUMNS) + 7)
+            cells = " " * (12 * len(COLUMNS) + 15)
         reason = f": {row['reason']}" if row["reason"] else ""
         name = row["name"] + (" *" if marked and row["reference"] == "scene" else "")
         print(f"  {title:11s}{name:30s}{cells}  {row['verdict']}{reason}")
     print(f"  In brackets: differences that are negligible, whatever their percentage (doc/needs.md). Target: {100 * target:g} %.")
 
 
-def write_table(rows: List[Dict[str, Any]], file: Path) -> None:
-    """Writes needs.csv: a line per row, changes as shares."""
+def write_table(rows: List[Dict[str, Any]], file: Path, scatter: Mapping[str, Any]) -> None:
+    """Writes needs.csv: a line per row, changes as shares; scatter_* are the scatter between the motions."""
     with open(file, "w", newline="", encoding="utf-8") as out:
         table = csv.writer(out, lineterminator="\n")
-        table.writerow(["group", "row", "settings", "simpler", "reference", *(f"change_{name}" for name in COLUMNS), *(f"error_{name}" for name in COLUMNS),
+        table.writerow(["group", "row", "settings", "simpler", "reference", "motions",
+                        *(f"{kind}_{name}" for kind in ("change", "low", "high", "error", "scatter") for name in COLUMNS),
                         "opening_joint", "slip_joint", "shear_monolith", "safety_monolith", "cost", "verdict", "reason"])
         for row in rows:
             def number(value: Any) -> str:
                 return "" if value is None else f"{value:.6g}"
-            changes, errors, where = (row.get(key) or {} for key in ("changes", "errors", "where"))
+            kinds, where = [row.get(key) or {} for key in ("changes", "low", "high", "errors")] + [scatter], row.get("where") or {}
             table.writerow([row["group"], row["name"], "; ".join(f"{entry} = {value}" for entry, value in row["set"].items()), row["simpler"], row["reference"],
-                            *(number(changes.get(name)) for name in COLUMNS), *(number(errors.get(name)) for name in COLUMNS),
+                            row.get("n", ""), *(number(kind.get(name)) for kind in kinds for name in COLUMNS),
                             *(where.get(name) or "" for name in ("opening", "slip", "base_shear", "sliding_safety")), number(row.get("cost")), row["verdict"],
                             row["reason"]])
 
@@ -79,9 +94,9 @@ def write_json(result: Mapping[str, Any], file: Path) -> None:
     write_whole(file, json.dumps(result, indent=1, default=str) + "\n")
 
 
-def draw(rows: List[Dict[str, Any]], target: float, directory: Path) -> List[Path]:
-    """Draws a tornado chart per result: the largest change on top, the target as a band, the scatter of the motion as lines. Colours: above
-    the target, within it, and grey for rows with the verdict "not known"."""
+def draw(rows: List[Dict[str, Any]], target: float, directory: Path, scatter: Mapping[str, Any]) -> List[Path]:
+    """Draws a tornado chart per result: the largest change on top, with its range over the motions, the target as a band, the scatter between the
+    motions as lines. Colours: above the target, within it, and grey for rows with the verdict "not known"."""
     import matplotlib
     matplotlib.use("Agg")
     import matplotlib.pyplot as plt
@@ -92,15 +107,14 @@ def draw(rows: List[Dict[str, Any]], target: float, directory: Path) -> List[Pat
             continue
         figure, axes = plt.subplots(figsize=(8, 1.4 + 0.24 * len(shown)))
         axes.axvspan(-100 * target, 100 * target, color="0.9", zorder=0, label=f"target, {100 * target:g} %")
-        scatter = next((row for row in shown if row["name"].startswith("scatter")), None)
-        if scatter is not None:
-            for sign in (-1, 1):
-                axes.axvline(sign * 100 * abs(scatter["changes"][name]), color="0.3", linewidth=1, linestyle="--",
-                             label="scatter of the motion" if sign == 1 else None)
+        for sign in (-1, 1) if scatter[name] else ():
+            axes.axvline(sign * 100 * scatter[name], color="0.3", linewidth=1, linestyle="--", label="scatter between the motions" if sign == 1 else None)
         for k, row in enumerate(shown):
             change = 100 * row["changes"][name]
             colour = "0.6" if row["verdict"] == UNKNOWN else COLOURS[1 if row["counts"][name] and abs(change) > 100 * target else 2]
             axes.barh(k, change, height=0.6, color=colour, alpha=0.85)
+            if row["low"][name] is not None:
+                axes.plot((100 * row["low"][name], 100 * row["high"][name]), (k - 0.2, k - 0.2), color="0.2", linewidth=1)
             axes.annotate(f"{signed(row['changes'][name])}", (change, k), xytext=(4 if change >= 0 else -4, 0), textcoords="offset points",
                           ha="left" if change >= 0 else "right", va="center", fontsize=8)
         axes.axvline(0, color="0.2", linewidth=0.8)
@@ -118,7 +132,7 @@ def draw(rows: List[Dict[str, Any]], target: float, directory: Path) -> List[Pat
 
 def remark_of(row: Mapping[str, Any], before: Mapping[str, str], entry: str) -> str:
     """Comment of a changed line of smallest.prm: what, effect, cost."""
-    effects = ", ".join(f"{column.title} {signed(row['changes'][name])} %" for name, column in COLUMNS.items()
+    effects = ", ".join(f"{column.title} {change_text(row, name)} %" for name, column in COLUMNS.items()
                         if row["changes"][name] is not None and row["counts"][name])
     return "\n".join(wrap(f"{row['name']}, instead of \"{before[entry]}\": {effects or 'no change that counts'}; cost x {row['cost']:.2f}", 110))
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Columns of `voussoir needs`: measures of a run, their changes, the verdict of a row, and the cheapest set of simplifications."""
+"""Columns of `voussoir needs`: measures of a run, paired changes, the verdict of a row, and the cheapest set of simplifications."""
 
 from __future__ import annotations
 
@@ -8,42 +8,40 @@ from typing import Any, Dict, Iterable, List, Mapping, NamedTuple, Optional, Tup
 
 import numpy as np
 
+from .ensembles import Ensemble
 from .results import Results
-from .zone_tension import zone_means
 
 Values = Dict[str, Optional[float]]
-MATTERS, UNIMPORTANT, UNKNOWN = "matters", "does not matter", "not known"
-CHEAPER = 0.8  # of the cost: a row with a higher ratio is no simplification, since the processor times of equal runs scatter by up to 20 %
-CLOCK = 0.05  # shortest processor time [s] that is distinguished from a shorter one
+Motions = Dict[int, Values]  # values by number of the motion
+MATTERS, BELOW, UNIMPORTANT, UNKNOWN = "matters", "matters less than the motion", "does not matter", "not known"
+CHEAPER = 0.95  # of the work: a row with a higher ratio is no simplification
+FEWEST = 3  # motions of a range
+OF_MEDIAN = math.sqrt(math.pi / 2)  # standard error of a median over that of a mean
 
 
 class Column(NamedTuple):
-    """A result: title, unit, its value in SI, and the difference that an engineer neglects, in SI."""
+    """A result: title, unit, its value in SI, the difference that an engineer neglects, in SI, and its name among the extremes of a run."""
 
     title: str
     unit: str
     scale: float
     negligible: float
+    extreme: str = ""
 
 
-COLUMNS = {"opening": Column("largest opening", "mm", 1e3, 1e-4),
-           "slip": Column("largest slip", "mm", 1e3, 1e-4),
-           "tension_upstream": Column("tension upstream", "MPa", 1e-6, 2e4),
-           "tension_downstream": Column("tension downstream", "MPa", 1e-6, 2e4),
+COLUMNS = {"opening": Column("largest opening", "mm", 1e3, 1e-4, "max_opening"),
+           "slip": Column("largest slip", "mm", 1e3, 1e-4, "max_slip"),
+           "tension_upstream": Column("tension upstream", "MPa", 1e-6, 2e4, "max_tension_upstream_away_from_base"),
+           "tension_downstream": Column("tension downstream", "MPa", 1e-6, 2e4, "max_tension_downstream_away_from_base"),
            "base_shear": Column("base shear", "MN", 1e-6, 1e5),
            "sliding_safety": Column("sliding safety", "", 1., 0.05),
            "crest": Column("crest displacement", "mm", 1e3, 1e-4)}
 
 
-def largest_at_joints(run: Results, quantity: str) -> Tuple[float, Optional[int]]:
-    """Largest opening or slip [m] of all pairs and its joint; 0 and None for a monolithic dam."""
-    if not (run.directory / "joint_points.csv").is_file():
-        return 0., None
-    points = run.table("joint_points")
-    if len(points.get("joint", ())) == 0:
-        return 0., None
-    first = int(np.argmax(points[f"max_{quantity}"]))
-    return float(points[f"max_{quantity}"][first]), int(points["joint"][first])
+def largest_joint(run: Results, quantity: str) -> Optional[int]:
+    """Joint with the largest opening or slip; None for a monolithic dam."""
+    points = run.table("joint_points") if (run.directory / "joint_points.csv").is_file() else {}
+    return int(points["joint"][np.argmax(points[f"max_{quantity}"])]) if len(points.get("joint", ())) else None
 
 
 def worst_monolith(summary: Mapping[str, Any], name: str, choose: Any) -> Tuple[Optional[float], Optional[int]]:
@@ -53,23 +51,32 @@ def worst_monolith(summary: Mapping[str, Any], name: str, choose: Any) -> Tuple[
     return choose(found) if found else (None, None)
 
 
-def measures_of(directory: Any) -> Dict[str, Any]:
-    """Measures a run: "values" by column (SI), "where" (joint or monolith), "cost" [CPU s per s of earthquake], "cpu" [s],
-    "setup" [s] and "seconds" of the earthquake."""
+def values_of(extremes: Mapping[str, float]) -> Values:
+    """Values of the columns that are extremes of a run; opening and slip of a monolithic dam are 0."""
+    return {name: extremes.get(column.extreme, 0. if name in ("opening", "slip") else None) for name, column in COLUMNS.items() if column.extreme}
+
+
+def measures_of(directory: Any) -> Tuple[Values, Dict[str, Optional[int]]]:
+    """Values of a run by column (SI), and the joint or monolith of some of them."""
     run = Results(directory)
-    summary, seconds = run.summary, run.summary["seconds"]
-    opening, slip = (largest_at_joints(run, quantity) for quantity in ("opening", "slip"))
-    shear, safety = worst_monolith(summary, "max_shear", max), worst_monolith(summary, "min_sliding_safety", min)
-    zones = zone_means(directory)[0]
-    half = len(zones) // 2
+    shear, safety = worst_monolith(run.summary, "max_shear", max), worst_monolith(run.summary, "min_sliding_safety", min)
     crest = [np.sqrt(sum(run.history[f"{point}_{axis}"] ** 2 for axis in "xyz")).max() for point in ("crest", "crest_left")
              if f"{point}_x" in run.history]
-    length = summary["steps"] * summary["time_step"]
-    return {"values": {"opening": opening[0], "slip": slip[0], "tension_upstream": float(zones[:half].max()),
-                       "tension_downstream": float(zones[half:].max()), "base_shear": shear[0], "sliding_safety": safety[0],
-                       "crest": float(max(crest))},
-            "where": {"opening": opening[1], "slip": slip[1], "base_shear": shear[1], "sliding_safety": safety[1]},
-            "cost": max(seconds["shaking_cpu"], CLOCK) / length, "cpu": seconds["cpu"], "setup": seconds["cpu"] - seconds["shaking_cpu"], "seconds": length}
+    values = values_of({name: extreme["value"] for name, extreme in run.summary["extremes"].items()})
+    return ({**values, "base_shear": shear[0], "sliding_safety": safety[0], "crest": float(max(crest))},
+            {"opening": largest_joint(run, "opening"), "slip": largest_joint(run, "slip"), "base_shear": shear[1], "sliding_safety": safety[1]})
+
+
+def measures_of_ensemble(directory: Any) -> Tuple[Motions, Dict[str, Optional[int]]]:
+    """Values of the motions of an ensemble that have results, and places as measures_of(). The columns that are no extremes are of the first
+    motion, whose tables are in motion-1."""
+    table = Ensemble(directory, {}).motions
+    motions = {k: values_of({name: float(column[k]) for name, column in table.items() if name.startswith("max_")})
+               for k, status in enumerate(table["status"]) if status == "ok"}
+    first, where = measures_of(f"{directory}/motion-1")
+    if 0 in motions:
+        motions[0] = {**first, **motions[0]}
+    return motions, where
 
 
 def changes_of(values: Values, reference: Values) -> Tuple[Values, Dict[str, bool]]:
@@ -86,6 +93,34 @@ def changes_of(values: Values, reference: Values) -> Tuple[Values, Dict[str, boo
             changes[name] = (value - before) / max(abs(before), column.negligible)
             counts[name] = abs(value - before) > column.negligible
     return changes, counts
+
+
+def paired(motions: Motions, references: Motions) -> Dict[str, Any]:
+    """Changes of a row, motion by motion: "changes", their medians; "low" and "high", 16 and 84 % from three motions on; "counts", whether at least half
+    of the differences are not negligible; "ratios" of each motion; "n", number of motions."""
+    both = sorted(set(motions) & set(references))
+    found: Dict[str, Any] = {"n": len(both), "changes": {}, "counts": {}, "low": {}, "high": {}, "ratios": {}}
+    each = [changes_of(motions[k], references[k]) for k in both]
+    for name in COLUMNS:
+        values = [changes[name] for changes, _ in each if changes[name] is not None]
+        found["ratios"][name] = [1. + value for value in values]
+        found["changes"][name] = float(np.median(values)) if values else None
+        found["counts"][name] = 2 * sum(counts[name] for _, counts in each) >= max(1, len(values))
+        found["low"][name], found["high"][name] = map(float, np.percentile(values, (16, 84))) if len(values) >= FEWEST else (None, None)
+    return found
+
+
+def scatter_of(motions: Motions) -> Values:
+    """Half of the range from 16 to 84 % over the motions, relative to the median; None with less than three motions."""
+    result: Values = {}
+    for name, column in COLUMNS.items():
+        values = [value for one in motions.values() if (value := one.get(name)) is not None]
+        if len(values) < FEWEST:
+            result[name] = None
+            continue
+        low, middle, high = np.percentile(values, (16, 50, 84))
+        result[name] = float((high - low) / 2 / max(abs(middle), column.negligible))
+    return result
 
 
 def size_of(changes: Values, counts: Mapping[str, bool], columns: Iterable[str] = COLUMNS) -> float:
@@ -106,47 +141,38 @@ def errors_of(changes: Values, counts: Mapping[str, bool], mesh_error: Values) -
     return {name: max(abs(mesh_error.get(name) or 0.), typical) * share for name in COLUMNS}
 
 
-def verdict_of(changes: Values, counts: Mapping[str, bool], errors: Values, target: float) -> Tuple[str, str]:
+def verdict_of(changes: Values, counts: Mapping[str, bool], errors: Values, target: float, scatter: Values) -> Tuple[str, str]:
     """Verdict of a row that has run, and the columns that decide it."""
-    above, unsure = [], []
+    above, below, unsure = [], [], []
     for name, column in COLUMNS.items():
         change, error = abs(changes[name] or 0.), errors.get(name) or 0.
         if not counts[name]:
             continue
         if change > max(target, error):
-            above.append(column.title)
+            (above if change > (scatter.get(name) or 0.) else below).append(column.title)
         elif error > target:
             unsure.append(column.title)
     if above:
         return MATTERS, ", ".join(above)
+    if below:
+        return BELOW, ", ".join(below)
     if unsure:
-        return UNKNOWN, f"the numerical error is larger than the change: {', '.join(unsure)}"
+        return UNKNOWN, f"the error is larger than the change: {', '.join(unsure)}"
     return UNIMPORTANT, ""
 
 
-def merge_scatter(rows: List[Dict[str, Any]]) -> List[Dict[str, Any]]:
-    """Joins the rows "scatter ..." of a group to one row with the largest change of each column; at the place of the first."""
-    parts = [row for row in rows if row["name"].startswith("scatter")]
-    good = [row for row in parts if row.get("changes")]
-    if not parts:
-        return rows
-    joined = {**parts[0], "name": "scatter of the motion", "simpler": False, "set": {"runs": [row["set"] for row in parts]}}
-    if good:
-        pick = {name: max(good, key=lambda row: abs(row["changes"][name] or 0.)) for name in COLUMNS}
-        joined.update({"cost": sum(row["cost"] for row in good) / len(good), "failure": None})
-        for key in ("changes", "counts", "values", "where"):
-            joined[key] = {name: pick[name][key].get(name) for name in COLUMNS}
-    return [joined if row is parts[0] else row for row in rows if row is parts[0] or row not in parts]
-
-
-def judge(rows: List[Dict[str, Any]], mesh_error: Values, target: float) -> None:
-    """Adds "errors", "verdict" and "reason" to rows. mesh_error: relative error of the coarse reference, {} for rows of the scene's mesh."""
+def judge(rows: List[Dict[str, Any]], mesh_error: Values, target: float, scatter: Values) -> None:
+    """Adds "errors", "verdict" and "reason" to rows. The error of a change is the larger of its numerical error and the standard error of its median.
+    mesh_error: relative error of the coarse reference, {} for rows of the scene's mesh."""
     for row in rows:
         if row.get("failure"):
             row.update(verdict=UNKNOWN, reason=row["failure"], errors={})
             continue
         row["errors"] = errors_of(row["changes"], row["counts"], mesh_error if row["reference"] == "coarse" else {})
-        row["verdict"], row["reason"] = verdict_of(row["changes"], row["counts"], row["errors"], target)
+        for name, low in row["low"].items():
+            if low is not None:  # of a median
+                row["errors"][name] = max(row["errors"].get(name) or 0., OF_MEDIAN * (row["high"][name] - low) / 2 / math.sqrt(row["n"]))
+        row["verdict"], row["reason"] = verdict_of(row["changes"], row["counts"], row["errors"], target, scatter)
 
 
 def candidates_of(rows: List[Dict[str, Any]]) -> List[Dict[str, Any]]:

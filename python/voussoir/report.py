@@ -24,12 +24,13 @@ from .chromium import find_browser, print_page
 from .command import Parser, write_whole
 from .drawing import draw_overstress
 from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
+from .error_bars import bar_text
 from .errors import ComputationError, InputError
 from .prm import prm_text
 from .report_answers import accuracy_sentence, answers, compared, mesh_quality, modes, modes_of, notes
 from .report_needs import needs_of
 from .report_scene import analysed, factor_of_first
-from .report_tables import blocks, blocks_of, differences, extremes, facts, html_table, number, table, verdict, wedges, wedges_of
+from .report_tables import MINUS, blocks, blocks_of, differences, extremes, facts, html_table, number, table, verdict, wedges, wedges_of
 from .runs import NotComputed, Run, Skip, name_apart, refuse_links
 
 
@@ -198,10 +199,13 @@ def results(page, runs):
 
 def error_bars(page, runs):
     """What the error bars are, or why a run has none."""
-    for run in single(runs):
+    for run in runs:
         bars, reason = run.error_bars
         of = f"{escape(run.name)}: " if len(runs) > 1 else ""
-        if bars:
+        if any({"motion", "damping"} & set(bar) for bar in bars.values()):
+            page.add(f'<p class="sub">{of}Parts of the errors, by <code>voussoir accuracy</code>, the motions and <code>voussoir needs</code>: '
+                     f"{escape('; '.join(bar_text(name, bar) for name, bar in bars.items()))}.</p>".replace(" -", f" {MINUS}"))
+        if bars and not run.ensemble:
             page.add(f'<p class="sub">{of}Behind a value: its error bar of mesh and time step, by <code>voussoir accuracy</code> over the strongest '
                      'seconds of the motion; the relative error of these seconds is applied to the whole run. A limit within the bar is '
                      "undecided. Values without a bar are compared as they are.</p>")

@@ -38,21 +38,24 @@ def needs_of(run):
     return shown
 
 
-def percent(change, counts):
-    """Text of a relative change, in brackets if it is negligible."""
+def percent(row, name):
+    """Text of a relative change, in brackets if it is negligible, and half of its range from 16 to 84 % over the motions."""
+    change, (low, high) = row["changes"][name], (row.get(end, {}).get(name) for end in ("low", "high"))
     if change is None:
         return ""
     text = f"{100 * change:+.{1 if abs(change) < 0.1 else 0}f}".replace("-", MINUS)
-    return text if counts else f"({text})"
+    return (text if row["counts"][name] else f"({text})") + ("" if low is None else f" ±{50 * (high - low):.1f}")
 
 
 def needs_table(found):
     """Rows of the table as HTML."""
     heads = [("group", ""), ("choice", ""), *((f"{column.title} [%]", "n") for column in COLUMNS.values()), ("cost", "n"), ("verdict", "")]
-    body = []
+    body, scatter = [], found.get("scatter") or {}
+    if any(scatter.values()):
+        body.append(("", ["motion", "scatter between the motions", *(f"±{100 * scatter[name]:.0f}" if scatter[name] else "" for name in COLUMNS), "", ""]))
     for row in found["rows"]:
         changes = row.get("changes")
-        cells = [percent(changes[name], row["counts"][name]) for name in COLUMNS] if changes else [""] * len(COLUMNS)
+        cells = [percent(row, name) for name in COLUMNS] if changes else [""] * len(COLUMNS)
         reason = f": {escape(str(row['reason']))}" if row["verdict"] == "not known" and row["reason"] else ""
         body.append(("", [escape(str(row["group"])), escape(str(row["name"])), *cells, f"{row['cost']:.2f}" if changes else "",
                           escape(str(row["verdict"])) + reason]))
@@ -70,4 +73,4 @@ def smallest_sentence(found):
         return text + f"It was not compared with the scene ({escape(str(smallest['failure']))})."
     state = "stays within the target" if smallest["holds"] else '<b class="exceeded">does not stay within the target</b>'
     return text + (f"Over the whole motion it {state} in {int(smallest['within'])} of {int(smallest['of'])} results, for {float(smallest['cost']):.2f} of the "
-                   "processor time.")
+                   "work.")

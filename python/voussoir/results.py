@@ -66,8 +66,8 @@ class Results:
     def error_bars(self) -> Dict[str, Any]:
         """Error bars of the largest values, from `voussoir accuracy` of the same scene in DIR/accuracy or SCENE-accuracy beside DIR.
 
-        {quantity: {"value", "low", "high", "combined", "parts", "unit"}} [m, Pa]; throws InputError if there are none."""
-        return bars_of_run(self.directory, self.summary, self.history)
+        {quantity: {"value", "low", "high", "combined", "parts", "unit"}} [m, Pa], see error_bars.bars_of_run(); throws InputError if there are none."""
+        return bars_of_run(self.directory, self.summary, None if "ensemble" in self.summary else self.history)
 
     history = _table_property("history", "Crest, base and probes over time [s, m, m/s2].")
     joints = _table_property("joints", "Largest opening and slip of each joint at the crest [m].")

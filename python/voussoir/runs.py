@@ -84,7 +84,7 @@ class Run:
     def error_bars(self):
         """Error bars of the largest values by `voussoir accuracy` (see error_bars.bars_of_run()), and why there are none."""
         try:
-            return (bars_of_run(self.directory, self.summary, self.history), "") if self.moves else ({}, "")
+            return (bars_of_run(self.directory, self.summary, None if self.ensemble else self.history), "") if self.moves else ({}, "")
         except (InputError, Skip) as reason:
             return {}, str(reason)
 

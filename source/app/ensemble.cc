@@ -280,6 +280,7 @@ namespace Voussoir
     results.report(log);
     write_ensemble_summary(directory, state, results.json(lanes), counters, log);
     checkpoint.remove();
+    report_error_bars(scene, directory, log);
     if (scene.output.figures)
       report_figures(directory, log);
     log.line("Results   %s", directory.c_str());

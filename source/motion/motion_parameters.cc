@@ -597,9 +597,6 @@ namespace Voussoir
       choices.add("motion", "without the cross-stream component", "Motion/Scale y", 0., true);
     if (moves(2))
       choices.add("motion", "without the vertical component", "Motion/Scale z", 0., true);
-    for (unsigned int n = 1; source == "artificial" && (sequence + ensemble).empty() && n <= 3; ++n)
-      choices.add("motion", "scatter of the motion, seed " + std::to_string(seed + n), "Motion/Seed",
-                  seed + n);
   }
 
   MotionEnvelope MotionParameters::envelope() const
