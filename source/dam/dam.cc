@@ -71,24 +71,6 @@ namespace Voussoir
                            ", are flat (FJA) at the nodes where they cross other joints.");
     }
 
-    /** Throws InputError if the model cannot be in plane strain. */
-    void check_plane_strain(const Scene &scene, const Foundation &foundation, const HexMesh &opened)
-    {
-      if (foundation.uses_rock())
-        throw InputError(
-            "\"Mesh/Plane strain\" is true, but \"Foundation/Model\" is " + scene.foundation.model +
-            ". Plane strain applies to dams on a rigid base. Set \"Foundation/Model\" to rigid, or "
-            "\"Mesh/Plane strain\" to false.");
-      if (scene.reservoir.is_meshed() && scene.reservoir.model == "acoustic" &&
-          scene.reservoir.reflection < 1.)
-        throw InputError(
-            "\"Mesh/Plane strain\" is true, but \"Reservoir/Reflection\" is " +
-            number_text(scene.reservoir.reflection) +
-            ": the sides of the channel would absorb waves as the bed does. Set \"Reservoir/Reflection\" "
-            "to 1, or \"Reservoir/Model\" to Westergaard.");
-      check_plane_section(opened, scene.mesh.name());
-    }
-
   } // namespace
 
   Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene), layout(scene, tie_all)
@@ -107,6 +89,13 @@ namespace Voussoir
       founded.coupling = "partition"; // the other coupling requires mean forces
     if (scene.is_explicit())
       founded.coupling = "common step";
+    if (scene.mesh.plane_strain)
+    {
+      founded.plane_strain = true;
+      founded.free_field = "columns"; // the sides of a slice cut no valley
+      check_plane_section(opened, source);
+      check_plane_section(mesh, source);
+    }
     foundation = make_foundation({founded, mesh, source, scene.elements.degree,
                                   scene.elements.incompatible_modes, is_one_body(scene, layout.tied),
                                   scene.mesh.source == "file" ? "" : scene.mesh.section()});
@@ -120,8 +109,6 @@ namespace Voussoir
     if (foundation->uses_rock())
       facts.rock_zones =
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
-    if (scene.mesh.plane_strain)
-      check_plane_strain(scene, *foundation, opened);
     for (const std::string &warning : mesh_warnings(opened, scene, facts.concrete_zones))
       facts.warnings.push_back(warning);
     assemble(opened, source);
@@ -374,10 +361,11 @@ namespace Voussoir
     }
     if (const ReservoirParameters &r = scene.reservoir; r.is_meshed() && scene.loads.factor("water") != 0.)
     {
-      water = std::make_unique<AcousticWater>(
-          *model, structure, *foundation,
-          WaterProperties{r.density, r.sound_speed, r.reflection, 0., r.length, r.element_size}, r.level,
-          water_volumes.get());
+      water =
+          std::make_unique<AcousticWater>(*model, structure, *foundation,
+                                          WaterProperties{r.density, r.sound_speed, r.reflection, 0.,
+                                                          r.length, r.element_size, scene.mesh.plane_strain},
+                                          r.level, water_volumes.get());
       water->gravity = scene.statics.gravity * scene.loads.factor("water");
       neighbours.push_back(water.get());
       if (water_volumes != nullptr && r.element_size > 0.)

@@ -23,6 +23,8 @@ namespace Voussoir
           kind[k] = parameters.incompatible_modes ? Integration::with_modes : Integration::gauss;
         if (at_boundary[k])
           kind[k] = Integration::nodal;
+        if (parameters.plane_strain && kind[k] == Integration::nodal)
+          kind[k] = Integration::nodal_plane;
         model.n_cells_at_dam += at_dam[k];
         model.n_nodal_at_dam += at_dam[k] && at_boundary[k];
       }
