@@ -211,7 +211,7 @@ def plane_strain():
     across = meshes.block(lambda i, j, k: (10. * j, 5. * i, 20. * k), (1, 2), 2, 2, {**meshes.DAM, "right": None, "left": None})
     meshes.write("across.msh", *across)
     refuse([*run, *PLANE, *settings("Reservoir/Density=1000")], (
-        ("Mesh/File=held.msh", "Foundation/Model=massless", "Reservoir/Density=0", ("artificial boundary", "planes of symmetry", "(0, ")),
+        ("Mesh/File=held.msh", "Foundation/Model=massless", "Reservoir/Density=0", ("artificial boundary", "planes of symmetry", "(-2.5, -5, -7.5)")),
         ("Mesh/File=koyna.msh", "Foundation/Model=rock", "Foundation/Incidence=SH 20 0", ("Mesh/Plane strain", "azimuth")),
         ("Mesh/File=across.msh", "Reservoir/Water level=35", ("(5, 5, 10) m", "without joints across y"))))
 

@@ -123,7 +123,10 @@ namespace Voussoir
             rocks.emplace_back();
           }
           BoundaryLine &line = model.lines[k];
-          line.distance = std::max(line.distance, found.places[0].distance(centre));
+          dealii::Point<3> source = centre;
+          if (parameters.plane_strain)
+            source[1] = found.places[0][1];
+          line.distance = std::max(line.distance, found.places[0].distance(source));
           if (line.nodes.empty() || found.nodes[1] == line.nodes[1])
             rocks[k].emplace_back(parameters.materials.at(face.cell->material_id()), face.area);
           if (!line.nodes.empty() &&
