@@ -6,7 +6,6 @@
 """
 
 import sys
-from math import sqrt
 from pathlib import Path
 
 import numpy as np
@@ -16,10 +15,8 @@ sys.path[:0] = [str(HERE / "golden"), str(HERE.parent / "meshes"), str(HERE.pare
 import koyna  # noqa: E402
 import meshes  # noqa: E402
 import plane_elements  # noqa: E402
-import scenes  # noqa: E402
 from compare import STRESS, read_vtu, scene  # noqa: E402
 from program_sustained import agree  # noqa: E402
-from program_water import ACOUSTIC, RHO, C, H, base_force, bed_pressure  # noqa: E402
 from run_program import expect, run_cases, runs, same, settings, table, write_scene  # noqa: E402
 from voussoir.zone_tension import zone_means  # noqa: E402
 
@@ -119,7 +116,7 @@ def on_rock(name, thickness, **sections):
 
 
 def massless():
-    """The section on massless rock: the frequencies of own plane elements. Two thicknesses give the same history under water."""
+    """The section on massless rock: the frequencies of own plane elements. Two thicknesses give the same history."""
     count = 6
     for degree in (1, 2):
         points, (stiffness, mass), (rock, _) = parts_with_rock(*BOX, degree)
@@ -137,113 +134,10 @@ def massless():
         print(f"    degree {degree}: {exact} Hz; difference {off:.1e} (limit 1e-6)")
         expect(len(rows) == count and off < 1e-6, f"{rows}, plane elements {exact}")
     for thickness in (1, 3):
-        water = {"Water level": 90, "Density": 1000, "Model": "acoustic", "Reflection": .5, "Element size": 15}
-        runs(on_rock(f"of_{thickness}", thickness, Foundation={"Model": "massless", **ROCK}, Reservoir=water, Statics={"Self-weight": "staged"},
+        runs(on_rock(f"of_{thickness}", thickness, Foundation={"Model": "massless", **ROCK}, Statics={"Self-weight": "staged"},
                      Motion={"Source": "artificial", "Duration": 1, "Scale y": 0}, Dynamics={"Factors": "double"}), "--output", f"of_{thickness}")
     same("of_1", "of_3", 1e-9, ("history",))
 
 
-def wide_reference(beside, below, wave, early, dt, steps):
-    """Displacement x of the upstream crest [m] at intervals dt, explicit, in a box so wide that no reflection returns. A plane S wave rises, which
-    comes to the ground after `early` [s], with half of the displacement wave(t) of an outcrop."""
-    nodes, ground = koyna.rock_below(koyna.section(*CELLS)[0], CELLS[0], beside, below)
-    points, dam = np.array(nodes), koyna.section(*CELLS)[1]
-    order = (0, 1, 3, 2)
-    cells = np.array([[cell[k] for k in order] for cell in dam + [cell for cell, _ in ground]])
-    matrices = [plane_elements.assemble(points[cell], np.arange(4)[None], 1, *KOYNA) for cell in cells[:len(dam)]]
-    matrices += [plane_elements.assemble(points[cells[-1]], np.arange(4)[None], 1, *ROCK.values())] * len(ground)
-    stiffness, mass = np.array([K for K, _ in matrices]), np.array([m for _, m in matrices])
-    unknowns = np.stack([2 * cells, 2 * cells + 1], axis=2).reshape(len(cells), 8)
-    mass = np.bincount(unknowns.ravel(), mass.ravel())
-    speed = sqrt(ROCK["Young's modulus"] / 2 / (1 + ROCK["Poisson's ratio"]) / ROCK["Density"])
-    held = np.repeat(points[:, 1] < points[:, 1].min() + 1e-6, 2)
-    held[1::2] |= abs(points[:, 0] - points[:, 0].mean()) > .999 * np.ptp(points[:, 0]) / 2  # the wave has no z there
-    rising = lambda t: np.stack([[.5 * wave(t - early - z / speed) for z in points[:, 1]], 0 * points[:, 1]], axis=1).ravel()
-    before, u, result = rising(-dt), rising(0.), []
-    crest = np.argmin(np.hypot(points[:, 0], points[:, 1] - 103.))
-    for _ in range(steps):
-        result.append(u[2 * crest])
-        force = np.bincount(unknowns.ravel(), np.einsum("eij,ej->ei", stiffness, u[unknowns]).ravel())
-        before, u = u, 2 * u - before - dt**2 * force / mass
-        u[held] = 0.
-    return np.array(result)
-
-
-def waves():
-    """The section on rock with mass, under a rising S wave: the crest of a wide box of own elements. Two thicknesses give the same histories; flat
-    ground moves as the outcrop does, and under an oblique P wave as that has it."""
-    wave = lambda t: scenes.outcrop(t, .01, .35, 4.)
-    speed = sqrt(ROCK["Young's modulus"] / 2 / (1 + ROCK["Poisson's ratio"]) / ROCK["Density"])
-    size, dt, steps, early = koyna.FACE[0][1] / CELLS[0], .0015, 600, .04
-    delay = (BOX[1] + 1) * size / speed
-    shaken = {"Source": "file", "File": "wave.txt", "Unit": "m/s^2", "Duration": dt * steps, "Time step": dt}
-    np.savetxt("wave.txt", [[k * dt, wave(k * dt)[1], 0., 0.] for k in range(steps + 1)])
-    rock = {"Model": "rock", **ROCK, "Stiffness damping": 0}
-    for thickness in (1, 20):
-        runs(on_rock(f"of_{thickness}", thickness, Elements={"Incompatible modes": "false"}, Foundation=rock, Motion=shaken,
-                     Dynamics={"Factors": "double"}), "--output", f"of_{thickness}")
-    same("of_1", "of_20", 1e-9, ("history",))
-    header, rows = table("of_1/history.csv")
-    t, x = np.array([(row[0], row[header.index("crest_x")]) for row in rows]).T
-    fine, n = .002, 360
-    exact = wide_reference(52, 76, lambda t: wave(t)[0], early, fine, n)
-    off = np.abs(np.interp(np.arange(n) * fine + delay - early, t, x, right=np.nan) - exact)
-    print(f"    crest: largest difference {np.nanmax(off):.2e} of {np.abs(exact).max():.3e} m")
-    expect(np.nanmax(off) < .02 * np.abs(exact).max() and np.isfinite(off).sum() > 300, f"{off}")
-
-
-def wet_force(t, a, alpha, n=24, shift=8.):
-    """Downstream force per width [N/m] on a rigid vertical wall of the depth H under the acceleration a, infinite channel, absorbing bed: modes of linear
-    elements over the depth for each frequency (Fenves and Chopra 1984), on the line Re s = shift / length of the record."""
-    dz, dt, steps = H / n, t[1] - t[0], 2 * len(t)
-    q = (1 - alpha) / (1 + alpha) / C
-    K, M = (np.diag([d] + [2 * d] * (n - 1)) + np.diag([e] * (n - 1), 1) + np.diag([e] * (n - 1), -1) for d, e in ((1 / dz, -1 / dz), (dz / 3, dz / 6)))
-    load, inverse = M @ np.ones(n) + np.eye(n)[-1] * dz / 6, np.linalg.inv(M)
-    damping = shift / (steps * dt)
-    spectrum = np.fft.rfft(np.exp(-damping * t) * a, steps)
-    result = np.zeros(len(spectrum), complex)
-    for k, omega in enumerate(2 * np.pi * np.fft.rfftfreq(steps, dt)):
-        s = damping + 1j * omega
-        if omega > 2 * np.pi * 100:
-            break
-        A = K.astype(complex)
-        A[0, 0] += s * q
-        squares, modes = np.linalg.eig(inverse @ A)
-        modes = modes / np.sqrt(np.einsum("ij,ik,kj->j", modes, M, modes))
-        result[k] = RHO * np.sum((load @ modes)**2 / np.sqrt(squares + s * s / C**2)) * spectrum[k]
-    return np.fft.irfft(result, steps)[:len(t)] * np.exp(damping * t)
-
-
-def water():
-    """A stiff wall 1 m wide: force of the water by pulses along x, exact modes with an absorbing bed, and pressure at the bed by a pulse along z.
-    The sides of the slice neither absorb nor move the water. Two thicknesses give the same."""
-    dt = .001
-    t = np.arange(0, 1 + dt / 2, dt)
-    common = settings("Motion/Source=file", "Motion/File=pulse.txt", "Motion/Unit=m/s^2", f"Motion/Time step={dt}", "Motion/Duration=1", "Reservoir/Water level=60",
-                      f"Reservoir/Density={RHO}", f"Reservoir/Sound speed={C}", "Reservoir/Element size=2.5", "Reservoir/Length=900",
-                      "Output/Pressure depths=60", "Output/Block forces=true", "Dynamics/Factors=double")
-    pulse = lambda period: np.where(t < period, np.sin(2 * np.pi * t / period), 0)
-    for width in (1., 5.):
-        meshes.wall(f"wall{width:g}.msh", width=width, n_up=24)
-    for width, period, alpha, limit in ((1., .4, 1., .01), (1., .4, .5, .01), (1., .1, .5, .03), (5., .1, .5, .03)):
-        file = scene("stiff", f"wall{width:g}.msh", Mesh={"Plane strain": "true"}, Concrete={"Young's modulus": 2e15, "Density": 2500})
-        a, name = pulse(period), f"of{width:g}"
-        np.savetxt("pulse.txt", np.column_stack([t, a, 0 * t, 0 * t]))
-        runs(file, "--output", "dry", "--overwrite", *common, *settings("Reservoir/Model=none"))
-        runs(file, "--output", name, "--overwrite", *common, *ACOUSTIC, *settings(f"Reservoir/Reflection={alpha}"))
-        found, exact = (base_force(name) - base_force("dry")) / width, wet_force(t, a, alpha)
-        error = np.abs(found[1:] - .5 * (exact[1:] + exact[:-1])).max() / np.abs(exact).max()
-        print(f"    width {width} m, pulse of {period} s, reflection {alpha}: largest error {100 * error:.2f} % (limit {100 * limit} %)")
-        expect(error < limit, f"error {error}")
-    v = .1 / 2 / np.pi * np.where(t < .1, 1 - np.cos(2 * np.pi * t / .1), 0)
-    np.savetxt("pulse.txt", np.column_stack([t, 0 * t, 0 * t, pulse(.1)]))
-    runs(file, "--output", "rising", *common, *ACOUSTIC, *settings("Reservoir/Reflection=0.5"))
-    header, rows = table("rising/history.csv")
-    found, exact = [row[header.index("pressure_60")] for row in rows], bed_pressure(v, dt, .5, 1e30)
-    error = np.abs(found - exact).max() / np.abs(exact).max()
-    print(f"    bed: {100 * error:.2f} % (limit 2 %)")
-    expect(error < .02, f"bed: {error}")
-
-
 if __name__ == "__main__":
-    run_cases(modes, column, joint, massless, waves, water)
+    run_cases(modes, column, joint, massless)

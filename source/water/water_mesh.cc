@@ -97,7 +97,6 @@ namespace Voussoir
     const Vector3                   normal = end_normal();
     WaterMesh                       result;
     result.places = places;
-    result.is_slice = is_slice;
     for (const double along : {0., last_length})
       for (const unsigned int node : nodes)
       {
@@ -121,8 +120,7 @@ namespace Voussoir
           edges[{a, b}] = 1;
     }
     for (const auto &[edge, unused] : edges)
-      if (const auto [a, b] = edge; (!result.at_surface[a] || !result.at_surface[b]) &&
-                                    !(is_slice && result.points[a][1] == result.points[b][1]))
+      if (const auto [a, b] = edge; !result.at_surface[a] || !result.at_surface[b])
         result.bed.push_back({a, b, n + b, n + a});
     return result;
   }
@@ -134,7 +132,6 @@ namespace Voussoir
     double                    length;
     WaterMesh                 mesh;
     const std::vector<double> layers = layers_of(properties, undamped, length, mesh.last_length);
-    mesh.is_slice = properties.is_slice;
     mesh.monolith = section.monolith;
     const double end = *std::min_element(section.face_x.begin(), section.face_x.end()) - length;
     const auto   node = [&](const std::size_t k, const unsigned int j)
