@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the mesh of examples/section: a slice of a monolith of Koyna Dam (103 m high) for plane strain. Gmsh MSH 2.2.
 
-    meshes/koyna.py [--output meshes/koyna.msh] [--cells 8 20] [--along 1] [--thickness 1]
+    meshes/koyna.py [--output meshes/koyna.msh] [--cells 8 20] [--along 1] [--thickness 1] [--rock 0 0] [--lift]
 
 x points downstream, from the vertical upstream face; y to the left bank; z up, from the base.
 """
@@ -11,7 +11,8 @@ import argparse
 import pathlib
 
 FACE = ((0., 70.2), (66.5, 19.25), (103., 14.8))  # downstream face, as usual in the literature: z, x [m]
-SURFACES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest"}
+SURFACES = {1: "base", 2: "upstream", 3: "downstream", 4: "crest", 5: "free surface", 6: "artificial boundary"}
+ROCK = 1000
 
 
 def section(n_through, n_up):
@@ -30,20 +31,50 @@ def section(n_through, n_up):
                    for k in range(n_up) for i in range(n_through)]
 
 
-def write(file, n_through, n_up, along=1, thickness=1., monolith=lambda i, k: 1):
-    """Writes the section with `along` elements over the thickness [m]. monolith: number of the monolith of column i, row k."""
+def rock_below(plane, n_through, beside, below):
+    """The nodes (x, z) of rock below and beside the section, in columns as wide as those at its base, and the cells with the
+    surfaces of their lower, upstream, downstream and upper sides (or None). Nodes of the base are those of the section."""
+    size = FACE[0][1] / n_through
+    row = n_through + 2 * beside + 1
+    nodes, number, cells = list(plane), {}, []
+    for k in range(below + 1):
+        for i in range(row):
+            at_base = k == below and 0 <= i - beside <= n_through
+            number[i, k] = i - beside if at_base else len(nodes)
+            if not at_base:
+                nodes.append((size * (i - beside), size * (k - below)))
+    for k in range(below):
+        for i in range(row - 1):
+            top = None if k + 1 < below else 1 if 0 <= i - beside < n_through else 5
+            cells.append((tuple(number[at] for at in ((i, k), (i + 1, k), (i + 1, k + 1), (i, k + 1))),
+                          (6 if k == 0 else None, 6 if i == 0 else None, 6 if i == row - 2 else None, top)))
+    return nodes, cells
+
+
+def write(file, n_through, n_up, along=1, thickness=1., monolith=lambda i, k: 1, rock=(0, 0), names=None):
+    """Writes the section with `along` elements over the thickness [m]. monolith: number of the monolith of column i, row k.
+    rock: numbers of elements beside and below the section. names: of the monoliths, where they are not the usual ones."""
     plane, cells = section(n_through, n_up)
+    parts = []  # volume, corners, surfaces of the lower, upstream, downstream and upper sides
+    for c, cell in enumerate(cells):
+        i, k = c % n_through, c // n_through
+        parts.append((monolith(i, k), cell, (1 if k == 0 and not rock[1] else None, 2 if i == 0 else None,
+                                             3 if i == n_through - 1 else None, 4 if k == n_up - 1 else None)))
+    if rock[1]:
+        plane, cells = rock_below(plane, n_through, *rock)
+        parts += [(ROCK, *part) for part in cells]
     n = len(plane)
     elements = []  # type, physical id, nodes
     for j in range(along):
-        for c, cell in enumerate(cells):
-            i, k = c % n_through, c // n_through
+        for volume, cell, surfaces in parts:
             a, b, d, e = (v + j * n for v in cell)
-            elements.append((5, monolith(i, k), (a, e, d, b, a + n, e + n, d + n, b + n)))
-            sides = {1: (k == 0, a, b), 2: (i == 0, a, e), 3: (i == n_through - 1, b, d), 4: (k == n_up - 1, e, d)}
-            elements += [(3, tag, (p, q, q + n, p + n)) for tag, (outside, p, q) in sides.items() if outside]
-    names = {(2, tag): name for tag, name in SURFACES.items()}
-    names.update({(3, tag): f"monolith {tag}" for kind, tag, _ in elements if kind == 5})
+            elements.append((5, volume, (a, e, d, b, a + n, e + n, d + n, b + n)))
+            for tag, p, q in zip(surfaces, (a, a, b, e), (b, e, d, d)):
+                if tag:
+                    elements.append((3, tag, (p, q, q + n, p + n)))
+    labels = {ROCK: "rock", **(names or {})}
+    names = {(2, tag): SURFACES[tag] for kind, tag, _ in elements if kind == 3}
+    names.update({(3, tag): labels.get(tag, f"monolith {tag}") for kind, tag, _ in elements if kind == 5})
     with open(file, "w") as f:
         print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", len(names), sep="\n", file=f)
         for (dimension, tag), name in sorted(names.items()):
@@ -64,8 +95,13 @@ def main():
     parser.add_argument("--cells", default=(8, 20), nargs=2, type=int, help="numbers of elements through the dam and over its height")
     parser.add_argument("--along", default=1, type=int, help="number of elements over the thickness")
     parser.add_argument("--thickness", default=1., type=float, help="[m]")
+    parser.add_argument("--rock", default=(0, 0), nargs=2, type=int, help="numbers of rock elements beside and below the dam; 0: none")
+    parser.add_argument("--lift", action="store_true", help="a lift joint where the slope of the downstream face changes")
     options = parser.parse_args()
-    write(options.output, *options.cells, options.along, options.thickness)
+    lower = round(.6 * options.cells[1])
+    write(options.output, *options.cells, options.along, options.thickness,
+          (lambda i, k: 1 + (k >= lower)) if options.lift else lambda i, k: 1, options.rock,
+          {1: "monolith 1 lift 1", 2: "monolith 1 lift 2"} if options.lift else None)
 
 
 if __name__ == "__main__":

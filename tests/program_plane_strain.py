@@ -8,6 +8,8 @@
 import sys
 from pathlib import Path
 
+import numpy as np
+
 HERE = Path(__file__).resolve().parent
 sys.path[:0] = [str(HERE / "golden"), str(HERE.parent / "meshes"), str(HERE.parent / "python")]
 import koyna  # noqa: E402
@@ -94,5 +96,48 @@ def joint():
         expect(all(row[header.index("crest_y")] == 0 for row in rows), f"{directory}: the crest moves along y")
 
 
+ROCK = {"Young's modulus": 20e9, "Poisson's ratio": .25, "Density": 2700.}
+CELLS, BOX = (4, 10), (8, 8)  # of the section; of the rock beside and below it
+
+
+def parts_with_rock(beside, below, degree):
+    """Nodes [m], and stiffness [N/m] and mass [kg] of dam and rock: own plane elements."""
+    nodes, ground = koyna.rock_below(koyna.section(*CELLS)[0], CELLS[0], beside, below)
+    dam = koyna.section(*CELLS)[1]
+    points, elements = plane_elements.all_nodes(nodes, dam + [cell for cell, _ in ground], degree)
+    of_dam, of_rock = elements[:len(dam)], elements[len(dam):]
+    return points, plane_elements.assemble(points, of_dam, degree, *KOYNA), plane_elements.assemble(points, of_rock, degree, *ROCK.values())
+
+
+def on_rock(name, thickness, **sections):
+    koyna.write(f"{name}.msh", *CELLS, thickness=thickness, rock=BOX)
+    concrete = dict(zip(("Young's modulus", "Poisson's ratio", "Density"), KOYNA))
+    return scene(name, f"{name}.msh", **{"Mesh": {"Plane strain": "true"}, "Concrete": concrete, **sections})
+
+
+def massless():
+    """The section on massless rock: the frequencies of own plane elements. Two thicknesses give the same history."""
+    count = 6
+    for degree in (1, 2):
+        points, (stiffness, mass), (rock, _) = parts_with_rock(*BOX, degree)
+        side = points[:, 0].max() - 1e-6, points[:, 0].min() + 1e-6, points[:, 1].min() + 1e-6
+        free = np.repeat((points[:, 0] < side[0]) & (points[:, 0] > side[1]) & (points[:, 1] > side[2]), 2)
+        K, m = (stiffness + rock)[np.ix_(free, free)], mass[free]
+        moving = m > 0
+        S = K[np.ix_(moving, moving)] - K[np.ix_(moving, ~moving)] @ np.linalg.solve(K[np.ix_(~moving, ~moving)], K[np.ix_(~moving, moving)])
+        root = 1 / np.sqrt(m[moving])
+        exact = np.sqrt(np.linalg.eigvalsh(S * np.outer(root, root))[:count]) / (2 * np.pi)
+        file = on_rock("two", 2., Elements={"Degree": degree, "Incompatible modes": "false"}, Foundation={"Model": "massless", **ROCK})
+        runs("modes", file, "--count", str(count), "--output", f"modes{degree}")
+        header, rows = table(f"modes{degree}/modes.csv")
+        off = max(abs(row[header.index("frequency")] / x - 1) for row, x in zip(rows, exact))
+        print(f"    degree {degree}: {exact} Hz; difference {off:.1e} (limit 1e-6)")
+        expect(len(rows) == count and off < 1e-6, f"{rows}, plane elements {exact}")
+    for thickness in (1, 3):
+        runs(on_rock(f"of_{thickness}", thickness, Foundation={"Model": "massless", **ROCK}, Statics={"Self-weight": "staged"},
+                     Motion={"Source": "artificial", "Duration": 1, "Scale y": 0}, Dynamics={"Factors": "double"}), "--output", f"of_{thickness}")
+    same("of_1", "of_3", 1e-9, ("history",))
+
+
 if __name__ == "__main__":
-    run_cases(modes, column, joint)
+    run_cases(modes, column, joint, massless)

@@ -204,11 +204,14 @@ def plane_strain():
     write_scene()
     run = ["scene.prm", "--validate"]
     refuse(run, (("Mesh/Plane strain=true", ("Mesh/Plane strain", "the same section at each y", "slice")),
-                 ("Mesh/Plane strain=true", "Foundation/Model=massless", ("rigid base", "Foundation/Model"))))
-    koyna.write("koyna.msh", 4, 10, along=2, thickness=10.)
+                 ("Mesh/Plane strain=true", "Foundation/Model=rock", ("Foundation/Model", "rigid or massless"))))
+    koyna.write("koyna.msh", 4, 10, rock=(8, 8))
+    meshes.on_rock("held.msh", 5., 2, (0, 2), 2, 2, 6)  # artificial boundary also at the sides
     across = meshes.block(lambda i, j, k: (10. * j, 5. * i, 20. * k), (1, 2), 2, 2, {**meshes.DAM, "right": None, "left": None})
     meshes.write("across.msh", *across)
     refuse([*run, *PLANE, *settings("Reservoir/Density=1000")], (
+        ("Mesh/File=held.msh", "Foundation/Model=massless", "Reservoir/Density=0", ("artificial boundary", "planes of symmetry", "(-2.5, -5, -7.5)")),
+        ("Mesh/File=koyna.msh", "Foundation/Model=massless", "Reservoir/Water level=95", "Reservoir/Model=acoustic", ("Reservoir/Model", "rigid base")),
         ("Mesh/File=koyna.msh", "Reservoir/Water level=95", "Reservoir/Model=acoustic", "Reservoir/Reflection=0.8", ("Reservoir/Reflection", "to 1")),
         ("Mesh/File=across.msh", "Reservoir/Water level=35", ("(5, 5, 10) m", "without joints across y"))))
 

@@ -72,21 +72,24 @@ namespace Voussoir
     }
 
     /** Throws InputError if the model cannot be in plane strain. */
-    void check_plane_strain(const Scene &scene, const Foundation &foundation, const HexMesh &opened)
+    void check_plane_strain(const Scene &scene, const HexMesh &mesh, const HexMesh &opened)
     {
-      if (foundation.uses_rock())
+      if (scene.foundation.model == "rock")
+        throw InputError("\"Mesh/Plane strain\" is true, but \"Foundation/Model\" is rock. Set "
+                         "\"Foundation/Model\" to rigid or massless, or \"Mesh/Plane strain\" to false.");
+      const bool is_acoustic = scene.reservoir.is_meshed() && scene.reservoir.model == "acoustic";
+      if (is_acoustic && scene.foundation.model != "rigid")
         throw InputError(
-            "\"Mesh/Plane strain\" is true, but \"Foundation/Model\" is " + scene.foundation.model +
-            ". Plane strain applies to dams on a rigid base. Set \"Foundation/Model\" to rigid, or "
-            "\"Mesh/Plane strain\" to false.");
-      if (scene.reservoir.is_meshed() && scene.reservoir.model == "acoustic" &&
-          scene.reservoir.reflection < 1.)
+            "\"Mesh/Plane strain\" is true, and \"Reservoir/Model\" is acoustic: this requires a "
+            "rigid base. Set \"Foundation/Model\" to rigid, or \"Reservoir/Model\" to Westergaard.");
+      if (is_acoustic && scene.reservoir.reflection < 1.)
         throw InputError(
             "\"Mesh/Plane strain\" is true, but \"Reservoir/Reflection\" is " +
             number_text(scene.reservoir.reflection) +
             ": the sides of the channel would absorb waves as the bed does. Set \"Reservoir/Reflection\" "
             "to 1, or \"Reservoir/Model\" to Westergaard.");
       check_plane_section(opened, scene.mesh.name());
+      check_plane_section(mesh, scene.mesh.name());
     }
 
   } // namespace
@@ -107,6 +110,8 @@ namespace Voussoir
       founded.coupling = "partition"; // the other coupling requires mean forces
     if (scene.is_explicit())
       founded.coupling = "common step";
+    if (scene.mesh.plane_strain)
+      check_plane_strain(scene, mesh, opened);
     foundation = make_foundation({founded, mesh, source, scene.elements.degree,
                                   scene.elements.incompatible_modes, is_one_body(scene, layout.tied),
                                   scene.mesh.source == "file" ? "" : scene.mesh.section()});
@@ -120,8 +125,6 @@ namespace Voussoir
     if (foundation->uses_rock())
       facts.rock_zones =
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
-    if (scene.mesh.plane_strain)
-      check_plane_strain(scene, *foundation, opened);
     for (const std::string &warning : mesh_warnings(opened, scene, facts.concrete_zones))
       facts.warnings.push_back(warning);
     assemble(opened, source);

@@ -85,12 +85,13 @@ namespace Voussoir
   CondensedRock condense_rock(const FoundationParameters &parameters, const HexMesh &mesh,
                               const SolidModel &dam, const bool incompatible_modes, const std::string &source)
   {
-    const SolidModel                   rock(rock_only(mesh), dam.degree);
+    SolidModel                         rock(rock_only(mesh), dam.degree);
     std::vector<std::array<double, 3>> points(rock.first_equation.back());
     if (points.size() == rock.n_nodes())
       throw InputError("mesh " + source + ": no face of the rock lies on the artificial boundary (surface " +
                        std::to_string(PhysicalId::artificial) +
                        "). Massless rock is fixed there. Add the surface to the mesh.");
+    rock.plane_strain = dam.plane_strain;
     for (unsigned int i = 0; i < rock.n_nodes(); ++i)
       if (rock.equation[i] != rigid_ground)
         points[rock.equation[i]] = {{rock.points[i][0], rock.points[i][1], rock.points[i][2]}};

@@ -28,6 +28,15 @@ namespace Voussoir
                          { return std::abs(opened.nodes[n][1] - y) < tolerance * size; });
     };
     const FaceTable table(opened);
+    for (const HexMesh::Face &face : opened.faces)
+      if (const FaceTable::Entry &entry = *table.owners(face.nodes).first;
+          face.surface == PhysicalId::artificial && cosine_to_y(opened, entry.cell, entry.cell_face) > .5)
+        throw InputError(
+            "mesh " + source +
+            ": with \"Mesh/Plane strain\", the rock has artificial boundaries "
+            "upstream, downstream and below only, because the planes y = constant are planes of symmetry. "
+            "Remove the face at " +
+            place(centre(opened, face.nodes)) + " from the surface \"artificial boundary\".");
     for (const FaceTable::Entry &face : table.entries())
       if (table.owners(face.key).second == nullptr && !in_plane(face, low[1]) && !in_plane(face, high[1]) &&
           cosine_to_y(opened, face.cell, face.cell_face) > tolerance)
