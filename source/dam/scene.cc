@@ -426,7 +426,8 @@ namespace Voussoir
     if (!is_explicit() && steps_per_sample % 2 == 0)
       choices.add("numerics", "twice the time step", "Dynamics/Steps per sample", .5 * steps_per_sample,
                   true);
-    if (!is_explicit() && foundation.model == "rigid" && damping.model != "Rayleigh" && !reservoir.is_meshed())
+    if (!is_explicit() && foundation.model == "rigid" && damping.model != "Rayleigh" &&
+        !reservoir.is_meshed())
       choices.add("numerics", "explicit scheme", {{"Dynamics/Scheme", "explicit"}}, true);
     if (!has_single_factors() && !is_explicit())
       choices.add("numerics", "factors in single precision", {{"Dynamics/Factors", "single"}}, true);
