@@ -121,7 +121,7 @@ def motions(n, base):
     scatter = n.scatter_of(scene)
     expect(abs(scatter["opening"] - (2.916 - 0.912) / 2 / 1.4) < 1e-12 and n.scatter_of({0: base, 1: base})["opening"] is None, f"{scatter}")
     row = {"group": "x", "name": "x", "set": {}, "reference": "scene", **found}
-    for of, verdict in ((scatter, n.BELOW), ({"opening": 0.05}, n.MATTERS), ({}, n.MATTERS)):
+    for of, verdict in ((scatter, n.BELOW), ({"opening": 0.05}, n.MATTERS), ({}, n.MATTERS), ({"slip": 0.05}, n.MATTERS), ({"slip": 0.2}, n.BELOW)):
         n.judge([row], {}, 0.05, of)
         expect(row["verdict"] == verdict and row["reason"] == "largest opening", f"{row}")
     wild = {k: {**values, "opening": (0.5 if k % 2 else 1.52) * values["opening"]} for k, values in scene.items()}
@@ -200,6 +200,7 @@ def smallest():
     lines = Path("out/smallest.prm").read_text().splitlines()
     place = next(i for i, line in enumerate(lines) if "set Steps per sample" in line)
     remark = " ".join(line.strip("# ") for line in lines[place - 3:place])
+    expect("# The promise of 90 % holds at " in "\n".join(lines[:3]), f"{lines[:3]}")
     expect("= 4" in lines[place] and 'longer time step, instead of "32"' in remark and "cost x" in remark, f"{lines}")
     # The file can be run as it is, and gives what the table says.
     runs("out/smallest.prm", "--output", "again")

@@ -208,7 +208,8 @@ class Ladder:
 
     def start(self, name, changes, directory):
         """Runs the scene with the changes and returns them. Smaller rock elements have a smaller critical time step. Then
-        the rock has the number of substeps that the message of the run requires, or else both have smaller steps."""
+        the rock has the number of substeps that the message of the run requires, or else both have smaller steps. An explicit
+        step that is above the critical step of smaller elements is replaced by that of the program."""
         shutil.rmtree(directory, ignore_errors=True)
         result = start(self.scene, "--output", directory, "--quiet", *set_options({**self.common, **changes}))
         first, tried = result.stderr, changes
@@ -216,6 +217,9 @@ class Ladder:
             if result.returncode == 2 and (needed := re.search(rf'"{entry}" to (\d+)', first)):
                 tried = {**changes, entry: int(needed[1])}
                 result = start(self.scene, "--output", directory, "--quiet", *set_options({**self.common, **tried}))
+        if result.returncode == 2 and name != FIRST and EXPLICIT_STEP in first and "above the critical step" in " ".join(first.split()):
+            tried = {**changes, EXPLICIT_STEP: -1}
+            result = start(self.scene, "--output", directory, "--quiet", *set_options({**self.common, **tried}))
         if result.returncode != 0:
             error = InputError if result.returncode == 2 else ComputationError
             raise error(f"the run \"{name}\" ({', '.join(f'{k} = {v}' for k, v in tried.items()) or 'the scene as it is'}"

@@ -169,14 +169,15 @@ class Needs:
         run = {**reference} if "failure" in reference else self.runs.run(name, changes, motion, predicted=reference["work"])
         if "failure" not in run:
             return self.adopt(row, run, reference, "single")
-        if motion == 0:
-            row["failure"] = run["failure"]
+        row["failure" if motion == 0 else "missing"] = run["failure"] if motion == 0 else f"from motion {motion + 1} on: {run['failure']}"
         return run
 
     @staticmethod
     def adopt(row: Dict[str, Any], run: Dict[str, Any], reference: Mapping[str, Any], mode: str) -> Dict[str, Any]:
         """Adds a run to its row."""
         row["motions"].update(run["motions"])
+        if lost := sorted(set(reference["motions"]) - set(run["motions"])):
+            row["missing"] = f"the batch has no results of {'motion' if len(lost) == 1 else 'motions'} {', '.join(str(k + 1) for k in lost)}"
         if len(row["motions"]) == len(run["motions"]):  # the first
             row.update(mode=mode, where=run["where"], values=run["motions"].get(0, {}), cost=run["pace"] / reference["pace"], extra=run["changes"])
         return run
@@ -232,13 +233,31 @@ class Needs:
                     else max(chosen, key=lambda row: size_of(row["changes"], row["counts"])))
             print(f"    The promise does not hold; taken back: {back['group']}: {back['name']}")
             chosen = [row for row in chosen if row is not back]
+        file.write_text(text.replace("\n# Entries", f"\n# {self.promise(attempts[-1])}\n# Entries", 1), encoding="utf-8")
         return {**attempts[-1], "file": str(file), "attempts": attempts}
 
+    def promise(self, attempt: Mapping[str, Any]) -> str:
+        """A sentence: whether the smallest scene was found to be within the target, and its cost."""
+        state = {True: "holds", False: "does not hold", None: "is not tested"}[attempt["holds"]]
+        cost = f" at {attempt['cost']:.2f} of the cost" if "cost" in attempt else ""
+        reason = f" ({' '.join(attempt['failure'].split())})" if "failure" in attempt else ""
+        return f"The promise of {100 * self.target:g} % {state}{cost}{reason}"
+
     def compare(self, name: str, chosen: List[Dict[str, Any]], changes: Mapping[str, Any]) -> Dict[str, Any]:
-        """Changes of a smallest scene against the scene, motion by motion over the whole motions."""
+        """Changes of a smallest scene against the scene, in batches if possible; then also with one motion and the scheme of the smallest scene."""
         mode = "batch" if all(row["mode"] == "batch" for row in chosen) else "single"
+        attempt = self.compare_by(mode, name, chosen, changes, [None] if mode == "batch" else list(self.numbers))
+        if mode == "batch" and attempt["holds"] and changes.get("Dynamics/Scheme", self.entries["Dynamics/Scheme"]) != "explicit":
+            print("    with the scheme of the scene:")
+            own = self.compare_by("single", name, chosen, changes, [0])
+            attempt.update({key: own[key] for key in ("holds", "failure", "cost", "within") if key in own}, own_scheme=own)
+        return attempt
+
+    def compare_by(self, mode: str, name: str, chosen: List[Dict[str, Any]], changes: Mapping[str, Any],
+                   numbers: List[Optional[int]]) -> Dict[str, Any]:
+        """Changes of a smallest scene against the scene, motion by motion over the whole motions."""
         expected, motions, first = self.predicted * (1 + math.prod(row["cost"] for row in chosen)), {}, None
-        for motion in [None] if mode == "batch" else self.numbers:
+        for motion in numbers:
             if self.runs.spent + expected > self.total:
                 break
             reference, run = self.reference("scene", motion, True), self.runs.run(name, changes, motion, whole=True, limited=False)
@@ -302,9 +321,7 @@ class Needs:
     def conclude(self, smallest: Mapping[str, Any], total: float, charts: List[Path]) -> None:
         """Prints the last lines."""
         if smallest.get("rows"):
-            state = {True: "holds", False: "does not hold", None: "is not tested"}[smallest["holds"]]
-            cost = f" at {smallest['cost']:.2f} of the cost" if "cost" in smallest else ""
-            print(f"\nThe promise of {100 * self.target:g} % {state}{cost}: {smallest['file']}")
+            print(f"\n{self.promise(smallest)}: {smallest['file']}")
         print(f"Total     work of {total:.1f} times one run of the scene (limit {self.total / self.predicted:.0f})")
         print(f"Table     {self.directory / 'needs.csv'}, needs.json")
         print(f"Charts    {', '.join(file.name for file in charts)}\nScene     {smallest['file']}")

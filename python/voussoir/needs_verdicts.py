@@ -142,14 +142,16 @@ def errors_of(changes: Values, counts: Mapping[str, bool], mesh_error: Values) -
 
 
 def verdict_of(changes: Values, counts: Mapping[str, bool], errors: Values, target: float, scatter: Values) -> Tuple[str, str]:
-    """Verdict of a row that has run, and the columns that decide it."""
+    """Verdict of a row that has run, and the columns that decide it. A column without scatter, such as those of the first motion alone, is compared with the
+    largest scatter of the others."""
     above, below, unsure = [], [], []
+    largest = max((size for size in scatter.values() if size is not None), default=0.)
     for name, column in COLUMNS.items():
         change, error = abs(changes[name] or 0.), errors.get(name) or 0.
         if not counts[name]:
             continue
         if change > max(target, error):
-            (above if change > (scatter.get(name) or 0.) else below).append(column.title)
+            (above if change > (largest if (size := scatter.get(name)) is None else size) else below).append(column.title)
         elif error > target:
             unsure.append(column.title)
     if above:
@@ -173,6 +175,7 @@ def judge(rows: List[Dict[str, Any]], mesh_error: Values, target: float, scatter
             if low is not None:  # of a median
                 row["errors"][name] = max(row["errors"].get(name) or 0., OF_MEDIAN * (row["high"][name] - low) / 2 / math.sqrt(row["n"]))
         row["verdict"], row["reason"] = verdict_of(row["changes"], row["counts"], row["errors"], target, scatter)
+        row["reason"] = "; ".join(filter(None, (row["reason"], row.get("missing"))))
 
 
 def candidates_of(rows: List[Dict[str, Any]]) -> List[Dict[str, Any]]:

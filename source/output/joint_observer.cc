@@ -96,7 +96,7 @@ namespace Voussoir
             largest = least = row[column];
           else
             least = std::min(least, row[column]);
-        if (largest > opens && least > closed * largest && !run.dam->layout.joints[j].is_lift())
+        if (largest > opens && least > closed * largest && run.dam->layout.joints[j].is_contraction())
           kept = std::max(kept, least);
       }
     return kept;

@@ -42,8 +42,8 @@ VOUSSOIR_INLINE Mask may_exceed(const Components &s, const Vector high, const Ve
                square = (x * x + y * y + z * z + 2.f * shear) / 6.f;
   const Vector det =
       x * (y * z - s.yz * s.yz) - s.xy * (s.xy * z - s.yz * s.zx) + s.zx * (s.xy * s.yz - y * s.zx);
-  const Vector margin = tolerance * (larger(mean, -mean) + VOUSSOIR_SQUARE_ROOT(square));
-  const Vector a = high - mean - margin, b = mean - low - margin, least = (1.f + tolerance) * square;
+  const Vector root = VOUSSOIR_SQUARE_ROOT(square), margin = tolerance * (larger(mean, -mean) + root);
+  const Vector a = high - mean - margin, b = mean - low - margin, least = square + margin * root;
   const Vector share = (1.f - tolerance) * a * a - 3.f * least,
                other = (1.f - tolerance) * b * b - 3.f * least;
   return ~((a > zero) & (a * a >= least) & (a * share >= det) & (b > zero) & (b * b >= least) &
