@@ -53,8 +53,9 @@ namespace Voussoir
       return product(sum, a, b);
     }
 
-    /** Returns the products of all vectors with all earlier ones, each as by dot(). */
-    std::vector<Vector> products_of(const std::vector<Vector> &vectors)
+    /** Returns the products of all vectors with all earlier ones, each as by dot(). @p ends: numbers after which a vector
+     * is zero. */
+    std::vector<Vector> products_of(const std::vector<Vector> &vectors, const std::vector<std::size_t> &ends)
     {
       const std::size_t   n = vectors.size(), even = n / 2 * 2;
       std::vector<Vector> result(n, Vector(n));
@@ -66,8 +67,10 @@ namespace Voussoir
           const double *a[2] = {vectors[i].data(), vectors[i + 1].data()}, *b[4];
           for (unsigned int d = 0; d < 4; ++d)
             b[d] = vectors[j + d].data();
-          Four sums[8];
-          add_products(a, b, vectors[i].size() / 4 * 4, sums);
+          Four              sums[8];
+          const std::size_t end =
+              std::min(std::max(ends[i], ends[i + 1]), *std::max_element(&ends[j], &ends[j] + 4));
+          add_products(a, b, std::min(end + 3, vectors[i].size()) / 4 * 4, sums);
           for (unsigned int d = 0; d < 8; ++d)
             result[i + d / 4][j + d % 4] = product(sums[d], vectors[i + d / 4], vectors[j + d % 4]);
         }
@@ -126,6 +129,9 @@ namespace Voussoir
           return;
         for (double &entry : gradient)
           entry /= norm;
+        const auto is_zero = [](const double entry) { return entry == 0.; };
+        ends.push_back(std::find_if_not(gradient.rbegin(), gradient.rend(), is_zero).base() -
+                       gradient.begin());
         of.push_back({gradients.size(), no_sample, value / norm, slack});
         gradients.push_back(std::move(gradient));
       }
@@ -141,7 +147,7 @@ namespace Voussoir
       Vector least_change() const
       {
         std::vector<Vector>       gram(of.size(), Vector(of.size(), 0.));
-        const std::vector<Vector> products = products_of(gradients);
+        const std::vector<Vector> products = products_of(gradients, ends);
         Vector                    values;
         for (std::size_t i = 0; i < of.size(); ++i)
         {
@@ -162,7 +168,7 @@ namespace Voussoir
           if (of[i].sample != no_sample)
             change[of[i].sample] += multipliers[i];
           else
-            for (std::size_t k = 0; k < change.size(); ++k)
+            for (std::size_t k = 0; k < ends[of[i].gradient]; ++k)
               change[k] += multipliers[i] * gradients[of[i].gradient][k];
         for (std::size_t k = 0; k < change.size(); ++k)
           change[k] *= root_weight[k];
@@ -176,8 +182,10 @@ namespace Voussoir
         std::size_t gradient, sample; ///< index in gradients; no_sample, or the only sample that is not zero
         double      value, slack;
       };
-      Vector                 root_weight;
-      std::vector<Vector>    gradients;
+      Vector              root_weight;
+      std::vector<Vector> gradients;
+      std::vector<std::size_t>
+          ends; ///< of the gradients: zero from there on, since later samples do not change a peak
       std::vector<Condition> of;
     };
 
