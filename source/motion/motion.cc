@@ -206,6 +206,8 @@ namespace Voussoir
     with_target.read_target(scene_directory);
     motion = make_sequence(with_target, scene_directory);
     check_samples(motion);
+    if (const std::string &note = with_target.note_of_target(); !note.empty())
+      motion.notes.push_back("target spectrum '" + parameters.target_file + "': " + note);
     add_stations(with_target, scene_directory, motion);
     return motion;
   }

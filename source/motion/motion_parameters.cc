@@ -69,10 +69,12 @@ namespace Voussoir
         {1., 60., true});
     prm.add_parameter(
         "Target spectrum", target_file,
-        "File with the columns period [s] and pseudo-acceleration for the damping ratio Damping, "
-        "or with one pseudo-acceleration for each of x, y, z. Unit as in Unit; period 0 or at "
+        "File with the columns period [s] or frequency [Hz] and pseudo-acceleration for the damping ratio Damping, "
+        "or with one pseudo-acceleration for each of x, y, z; or a uniform hazard spectrum of OpenQuake, or a search "
+        "in PEER's data base. Unit of the headings, otherwise as in Unit; period 0 or at "
         "most 0.02 s first (peak acceleration), at least 3 s last. One column applies to x and "
-        "y, and multiplied by Vertical ratio to z. It replaces the design spectrum of artificial "
+        "y, and multiplied by Vertical ratio to z. Of several spectra, the name of one follows, as in "
+        "\"uhs.csv: 0.1\". It replaces the design spectrum of artificial "
         "motions, and is the target of Match.",
         Patterns::Anything());
   }
@@ -136,7 +138,7 @@ namespace Voussoir
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter(
         "Unit", unit,
-        "Unit of the acceleration in tables and in Target spectrum, such as g (9.80665 m/s^2), m/s^2, cm/s^2 or "
+        "Unit of the acceleration in tables, and in a Target spectrum without unit, such as g (9.80665 m/s^2), m/s^2, cm/s^2 or "
         "gal. Files of agencies have their own unit.",
         Patterns::Selection(unit_choices("acceleration")));
     prm.add_parameter("Baseline", baseline,
@@ -578,9 +580,14 @@ namespace Voussoir
 
   void MotionParameters::read_target(const std::string &scene_directory)
   {
-    if (has_target() && !target_file.empty())
-      target_spectrum = read_spectrum((std::filesystem::path(scene_directory) / target_file).string(), unit,
-                                      vertical_ratio, {.02, MotionCriteria::last_period});
+    if (!has_target() || target_file.empty())
+      return;
+    target_spectrum = read_spectrum((std::filesystem::path(scene_directory) / target_file).string(), unit,
+                                    vertical_ratio, {.02, MotionCriteria::last_period});
+    if (const double of_file = target_spectrum.damping; of_file > 0. && std::abs(of_file - damping) > 1e-6)
+      throw InputError("The spectrum '" + target_file + "' is for a damping ratio of " +
+                       number_text(of_file) + ", but Motion/Damping is " + number_text(damping) +
+                       ". Set Motion/Damping = " + number_text(of_file) + ", or give another spectrum.");
   }
 
   void MotionParameters::add_choices(ModelChoices &choices) const

@@ -112,9 +112,12 @@ namespace Voussoir
     /** Returns the name of a part for messages: its files, or its seed. */
     std::string name_of_part() const;
 
-    /** Reads "Target spectrum" if it is given. Throws InputError, see read_spectrum(). Required before
-     * target(). */
+    /** Reads "Target spectrum" if it is given. Throws InputError, see read_spectrum(), and for another damping ratio
+     * than "Damping". Required before target(). */
     void read_target(const std::string &scene_directory);
+
+    /** Returns SpectrumTable::note, or an empty string before read_target(). */
+    const std::string &note_of_target() const { return target_spectrum.note; }
 
     /** Returns true if "Target spectrum" was read, and its headings state no unit. */
     bool target_lacks_unit() const
