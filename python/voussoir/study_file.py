@@ -231,8 +231,9 @@ def with_paths(entry, text, directory):
     """The value of an entry with absolute paths of its files, and these paths. In Motion/Sequence and
     Ensemble, numbers and ranges are seeds; in Motion/Abutments, a bank and a height precede the files; in Loads/Force history each third part is a file."""
     if is_file_entry(entry) and text:
-        path = str((directory / text).resolve())
-        return path, [path]
+        file, colon, choice = text.rpartition(":") if entry == "Motion/Target spectrum" and not (directory / text).exists() else ("", "", "")
+        path = str((directory / (file or text)).resolve())
+        return path + colon + choice, [path]
     if entry == "Loads/Force history":
         parts = [part.strip() for part in text.split(";")]
         parts[2::3] = [str((directory / part).resolve()) for part in parts[2::3]]

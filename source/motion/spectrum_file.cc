@@ -9,6 +9,7 @@
 #include <cmath>
 #include <filesystem>
 #include <regex>
+#include <tuple>
 
 namespace Voussoir
 {
@@ -23,9 +24,8 @@ namespace Voussoir
     /** One spectrum of a file. */
     struct Candidate
     {
-      std::string                            name, unit;
-      std::vector<std::pair<double, double>> points; ///< period [s], acceleration
-      std::vector<std::size_t>               lines;  ///< of the points
+      std::string                                          name, unit;
+      std::vector<std::tuple<double, double, std::size_t>> points = {}; ///< period [s], acceleration, line
     };
 
     /** Returns the period of PGA, SA(0.2) or SA0P2 [s], or NaN for other text. */
@@ -93,9 +93,8 @@ namespace Voussoir
           auto same = std::find_if(result.begin() + first, result.end(),
                                    [&](const Candidate &other) { return other.name == name; });
           if (same == result.end())
-            same = result.insert(same, {name, "g", {}, {}});
-          same->points.emplace_back(period, table.rows[i][c]);
-          same->lines.push_back(table.lines[i]);
+            same = result.insert(same, {name, "g"});
+          same->points.emplace_back(period, table.rows[i][c], table.lines[i]);
         }
       for (Candidate &spectrum : result)
         std::sort(spectrum.points.begin(), spectrum.points.end());
@@ -123,52 +122,45 @@ namespace Voussoir
                   "pseudo-acceleration, or four, period and pseudo-acceleration in x, y, z, or one for each " +
                   "heading, equal in all lines. One line of headings without numbers may come first; put # " +
                   "before other text.");
-      const std::regex velocity("p?s[vd]([^a-z].*)?"); // or displacement
-      const auto       has = [&](const char quantity, const char *name)
-      {
-        return std::find_if(columns.begin(), columns.end(),
-                            [&](const TableColumn &c)
-                            { return c.quantity == quantity || lower_case(c.text).rfind(name, 0) == 0; }) -
-               columns.begin();
-      };
-      std::size_t at = has('t', "period");
-      const bool  is_frequency = at == columns.size() && (at = has('f', "freq")) < columns.size();
-      if (at == columns.size())
-        at = 0;
-      else if (const std::string &unit = columns[at].unit;
-               !unit.empty() && unit != (is_frequency ? "Hz" : "s"))
+      const auto is = [](const TableColumn &column, const char quantity, const char *name)
+      { return column.quantity == quantity || lower_case(column.text).rfind(name, 0) == 0; };
+      const auto        first = std::find_if(columns.begin(), columns.end(),
+                                             [&](const TableColumn &column)
+                                             { return is(column, 't', "period") || is(column, 'f', "freq"); });
+      const std::size_t at = first == columns.end() ? 0 : first - columns.begin();
+      const bool        is_frequency = is(columns[at], 'f', "freq");
+      if (const std::string unit = is_frequency ? "Hz" : "s";
+          !columns[at].unit.empty() && columns[at].unit != unit)
         throw InputError("The spectrum '" + file + "' has the column '" + columns[at].text +
-                         "'. Give it in " + (is_frequency ? "Hz." : "s."));
+                         "'. Give it in " + unit + ".");
+      const std::regex       other("p?s[vd]([^a-z].{0,99})?"); // velocity or displacement
       std::vector<Candidate> result;
-      for (std::size_t c = 0; c < columns.size(); ++c)
-      {
-        const TableColumn &column = columns[c];
-        const std::string  name = lower_case(column.text);
-        if (c == at || (column.quantity != 'a' && column.quantity != '?') ||
-            (column.quantity == '?' && std::regex_match(name.substr(0, 200), velocity)))
-          continue;
-        result.push_back({column.text, column.unit.empty() ? table.unit : column.unit, {}, table.lines});
-        for (const std::vector<double> &row : table.rows)
-          result.back().points.emplace_back(is_frequency ? 1. / row[at] : row[at], row[c]);
-        if (is_frequency && result.back().points.size() > 1 &&
-            result.back().points[0] > result.back().points[1])
+      for (std::size_t c = 0; c < n; ++c)
+        if (const TableColumn &column = columns[c];
+            c != at && (column.quantity == 'a' ||
+                        (column.quantity == '?' && !std::regex_match(lower_case(column.text), other))))
         {
-          std::reverse(result.back().points.begin(), result.back().points.end());
-          std::reverse(result.back().lines.begin(), result.back().lines.end());
+          result.push_back({column.text, column.unit.empty() ? table.unit : column.unit});
+          auto &points = result.back().points;
+          for (std::size_t i = 0; i < table.rows.size(); ++i)
+            points.emplace_back(is_frequency ? 1. / table.rows[i][at] : table.rows[i][at], table.rows[i][c],
+                                table.lines[i]);
+          if (is_frequency)
+            std::sort(points.begin(), points.end());
         }
-      }
       return result;
     }
 
+    /** Returns true if there are three spectra without names, or with names that end in x, y and z before the unit. */
     bool are_components(const std::vector<Candidate> &all)
     {
-      for (unsigned int d = 0; d < 3 && all.size() == 3; ++d)
+      bool result = all.size() == 3;
+      for (unsigned int d = 0; d < 3 && result; ++d)
       {
-        const std::string name = all[d].name.substr(0, all[d].name.find_first_of("([,"));
-        if (const std::string text = lower_case(trimmed(name)); !text.empty() && text.back() != "xyz"[d])
-          return false;
+        const std::string name = trimmed(all[d].name.substr(0, all[d].name.find_first_of("([,")));
+        result = name.empty() || lower_case(name).back() == "xyz"[d];
       }
-      return all.size() == 3;
+      return result;
     }
 
     /** Returns the chosen spectrum, or three for x, y, z. Throws InputError if the choice is unknown or ambiguous. */
@@ -207,18 +199,19 @@ namespace Voussoir
                          spectrum.unit + ", which is unknown. Use g, %g, gal, cm/s^2 or m/s^2.");
       for (std::size_t i = 0; i < spectrum.points.size(); ++i)
       {
-        const auto &[period, a] = spectrum.points[i];
-        if (!(period >= 0. && std::isfinite(period)) || (i > 0 && period <= spectrum.points[i - 1].first))
-          fail_in_spectrum(file, spectrum.lines[i],
+        const auto &[period, a, line] = spectrum.points[i];
+        if (!(period >= 0. && std::isfinite(period)) ||
+            (i > 0 && period <= std::get<0>(spectrum.points[i - 1])))
+          fail_in_spectrum(file, line,
                            "the period is " + number_text(period) +
                                " s. Periods must not be negative, and must increase from line to line.");
         if (!(a > 0.))
           fail_in_spectrum(
-              file, spectrum.lines[i],
+              file, line,
               "the acceleration is " + number_text(a) +
                   ". It must be positive. Set Motion/Scale x, y or z to 0 for a component at rest.");
       }
-      const double first = spectrum.points.front().first, last = spectrum.points.back().first;
+      const double first = std::get<0>(spectrum.points.front()), last = std::get<0>(spectrum.points.back());
       if (first > range.first || last < range.last)
         throw InputError("The spectrum '" + file + "' must begin at a period of at most " +
                          number_text(range.first) + " s (0: peak acceleration) and end at " +
@@ -271,14 +264,14 @@ namespace Voussoir
     const std::string otherwise = unit.empty() ? "m/s^2" : unit,
                       own_unit = spectrum.states_unit ? found[0].unit : otherwise;
     for (const auto &point : found[0].points)
-      spectrum.periods.push_back(point.first);
+      spectrum.periods.push_back(std::get<0>(point));
     for (unsigned int d = 0; d < 3; ++d)
     {
       const Candidate &component = found[found.size() == 3 ? d : 0];
       const double     factor = unit_of_acceleration(component.unit.empty() ? otherwise : component.unit) *
                             (found.size() == 1 && d == 2 ? vertical_ratio : 1.);
       for (const auto &point : component.points)
-        spectrum.acceleration[d].push_back(factor * point.second);
+        spectrum.acceleration[d].push_back(factor * std::get<1>(point));
     }
     spectrum.note =
         format + (found[0].name.empty() ? "" : " '" + found[0].name + "'") + ", unit " + own_unit +
