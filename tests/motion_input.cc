@@ -457,9 +457,9 @@ namespace
     for (const std::string sequence : {"a;;b", "a;b;", "a,b", "a,b,", "a,,c", "a,b,c,d", "-", "-,-,-", ",,"})
       wrong([&](MotionParameters &p) { p.source = "file", p.sequence = sequence; }, "Sequence");
     wrong([](MotionParameters &p) { p.source = "file", p.sequence = "a;b", p.file = "c"; }, "Sequence");
-    wrong([](MotionParameters &p) { p.source = "file", p.file = "a", p.match = true; }, "Match");
+    wrong([](MotionParameters &p) { p.source = "file", p.file = "a", p.match = "true"; }, "Match");
     wrong([](MotionParameters &p)
-          { p.source = "file", p.file = "a", p.match = true, p.target_file = "b", p.time_step = .05; },
+          { p.source = "file", p.file = "a", p.match = "true", p.target_file = "b", p.time_step = .05; },
           "Time step");
     wrong([](MotionParameters &p) { p.duration = 0.1; }, "Duration");
     wrong([](MotionParameters &p) { p.duration = 3000.; }, "Duration");

@@ -299,7 +299,7 @@ SPECTRA = {  # file, choice, parts of the note, first period [s]
     "sites.csv": (hazard(2, True), ":0.1 at 7 46.2", ("'0.1 at 7 46.2'",)),
     "usgs.csv": ("Edition,Dynamic: Conterminous U.S. 2014 (update)\nReturn Period,2475\n\n" + column('"Period (s)","Ground Motion (g)"', first="PGA"), "",
                  ("'Ground Motion (g)'", "unit g", "from 0 s")),
-    "nshm.txt": (column("# 5 % damping\nPeriod Sa (g)", first="SA0P01", separator="\t"), "", ("from 0.01 s", "damping ratio 0.05")),
+    "nshm.txt": (column("# 5 % damping\nPeriod Sa (g)", separator="\t"), "", ("from 0.01 s", "damping ratio 0.05")),
     "_SearchResults.csv": (SEARCH, "", ("PEER search 'Target pSa (g)'", "unit g", "damping ratio 0.05", "5 periods")),
     "code.csv": (column("T [s]; Sa [m/s\u00b2]", G, separator=";"), "", ("unit m/s^2", "not stated")),
     "gal.csv": (column("Period (s), PSA (gal)", 100 * G), "", ("unit cm/s^2",)),

@@ -41,7 +41,7 @@ namespace Voussoir
       const bool            artificial = parameters.source == "artificial";
       double                factor = 1.; // read_motion() includes it, except for records to be matched
       std::array<double, 3> factors = parameters.scale;
-      if (artificial || parameters.match)
+      if (artificial || parameters.match != "false")
         factor = parameters.factor;
       for (double &f : factors)
         f *= factor;
@@ -50,7 +50,7 @@ namespace Voussoir
       else
       {
         MotionParameters as_read = parameters;
-        as_read.factor = parameters.match ? 1. : parameters.factor;
+        as_read.factor = parameters.match != "false" ? 1. : parameters.factor;
         motion = read_motion(as_read, scene_directory, begin);
         process_record(motion, parameters, factors, !is_alone);
       }
@@ -93,6 +93,7 @@ namespace Voussoir
         const GroundMotion next = make_part(part, scene_directory, is_alone);
         if (!motion.parts.empty()) // the first sample of the next part ends the rest
           append_rest(motion, std::lround(parameters.rest_length() / motion.dt) - 1);
+        motion.fit = next.fit;
         const double begin = motion.acceleration.size() * motion.dt;
         motion.parts.push_back({part.name_of_part(), begin, begin + next.duration()});
         motion.acceleration.insert(motion.acceleration.end(), next.acceleration.begin(),

@@ -362,8 +362,7 @@ namespace Voussoir
     return record;
   }
 
-  NumberTable read_number_table(const RecordText                                 &text,
-                                const std::function<double(const std::string &)> &named)
+  NumberTable read_number_table(const RecordText &text)
   {
     NumberTable       table;
     std::string       headings;
@@ -379,10 +378,7 @@ namespace Voussoir
       table.lines.push_back(line.number + 1);
       table.rows.emplace_back();
       for (const std::string &word : line.words)
-      {
-        const double meaning = named && table.rows.back().empty() ? named(word) : NAN;
-        table.rows.back().push_back(std::isfinite(meaning) ? meaning : number_of(text, line, word, false));
-      }
+        table.rows.back().push_back(number_of(text, line, word, false));
     }
     table.unit = unit_in(headings);
     return table;

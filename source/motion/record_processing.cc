@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/motion/motion_artificial.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/motion/record_processing.h>
@@ -7,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -225,6 +227,31 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    /** Returns mean and root of the mean square of ln(target / spectrum) over the horizontal components that move,
+     * otherwise of z, and over MotionParameters::band(). Both are 0 without motion. */
+    std::array<double, 2> log_misfit(const GroundMotion &motion, const MotionParameters &parameters,
+                                     const std::array<double, 3> &factors)
+    {
+      const auto   band = parameters.band();
+      const Vector periods = logarithmic_periods(band[0], band[1], 100);
+      double       sum = 0., squares = 0.;
+      std::size_t  n = 0;
+      for (unsigned int d = 0; d < (n == 0 ? 3 : 2); ++d)
+        if (const Vector a = motion.component(d); !is_zero(a) && factors[d] != 0.)
+        {
+          const Vector spectrum = pseudo_acceleration_spectrum(a, motion.dt, periods, parameters.damping);
+          for (std::size_t k = 0; k < periods.size(); ++k, ++n)
+          {
+            const double misfit = std::log(parameters.target(d, periods[k]) / spectrum[k]);
+            sum += misfit, squares += misfit * misfit;
+          }
+        }
+      return {{sum / std::max<std::size_t>(n, 1), std::sqrt(squares / std::max<std::size_t>(n, 1))}};
+    }
+  } // namespace
+
   void process_record(GroundMotion &motion, const MotionParameters &parameters,
                       const std::array<double, 3> &factors, const bool has_zero_ends)
   {
@@ -232,19 +259,35 @@ namespace Voussoir
       throw InputError(
           "The record of the ground motion has " + std::to_string(motion.acceleration.size()) +
           " samples, too few for Motion/Baseline. Set Baseline to none, or give a longer record.");
-    if (parameters.match)
+    if (parameters.match == "true")
       check_length(motion.acceleration.size() - 1, motion.dt);
-    for (unsigned int d = 0; d < 3; ++d)
+    const auto replace = [&](const std::function<Vector(const Vector &, unsigned int)> &changed)
     {
-      Vector a = motion.component(d);
-      if (is_zero(a) || factors[d] == 0.)
-        continue;
-      if (parameters.baseline != "none")
-        a = corrected(a, motion, parameters, d, factors[d], has_zero_ends);
-      if (parameters.match)
-        a = matched(a, motion, parameters, d, factors[d]);
-      for (std::size_t k = 0; k < a.size(); ++k)
-        motion.acceleration[k][d] = a[k];
-    }
+      for (unsigned int d = 0; d < 3; ++d)
+        if (const Vector a = motion.component(d); !is_zero(a) && factors[d] != 0.)
+        {
+          const Vector result = changed(a, d);
+          for (std::size_t k = 0; k < a.size(); ++k)
+            motion.acceleration[k][d] = result[k];
+        }
+    };
+    if (parameters.baseline != "none")
+      replace([&](const Vector &a, const unsigned int d)
+              { return corrected(a, motion, parameters, d, factors[d], has_zero_ends); });
+    if (parameters.match == "false")
+      return;
+    const auto [mean, before] = log_misfit(motion, parameters, factors);
+    motion.fit = {std::exp(mean), before, 0.};
+    if (parameters.match == "scale")
+      motion = motion.scaled(motion.fit.factor);
+    else
+      replace([&](const Vector &a, const unsigned int d)
+              { return matched(a, motion, parameters, d, factors[d]); });
+    motion.fit.misfit_after = log_misfit(motion, parameters, factors)[1];
+    if (parameters.match == "scale")
+      motion.notes.push_back("multiplied by " + number_text(motion.fit.factor) + ", scaled to '" +
+                             parameters.target_file + "' from " + number_text(parameters.band()[0]) +
+                             " s to " + number_text(parameters.band()[1]) + " s; misfit of the spectrum " +
+                             percent(before) + ", now " + percent(motion.fit.misfit_after));
   }
 } // namespace Voussoir

@@ -28,20 +28,21 @@ namespace Voussoir
       std::vector<std::tuple<double, double, std::size_t>> points = {}; ///< period [s], acceleration, line
     };
 
-    /** Returns the period of PGA, SA(0.2) or SA0P2 [s], or NaN for other text. */
+    /** Returns the period of PGA or SA(0.2) [s], or NaN for other text. */
     double period_of_name(const std::string &text)
     {
-      std::string name = lower_case(trimmed(text));
-      if (name == "pga")
-        return 0.;
-      std::replace(name.begin(), name.end(), 'p', '.');
-      const std::size_t digit = name.find_first_of("0123456789");
-      return name.rfind("sa", 0) == 0 && digit <= 3 ? leading_number(name.substr(digit)) : NAN;
+      const std::string name = lower_case(trimmed(text));
+      return name == "pga" ? 0. : name.rfind("sa(", 0) == 0 ? leading_number(name.substr(3)) : NAN;
     }
 
-    /** Removes the lines before the headings, and those after the block of PEER. Returns the name of the format. */
+    /** Removes the lines before the headings, and those after the block of PEER. Replaces PGA before a number by the
+     * period 0. Returns the name of the format. */
     std::string cut_to_table(RecordText &text)
     {
+      for (std::string &line : text.lines)
+        if (const auto words = words_of(line);
+            words.size() > 1 && lower_case(words[0]) == "pga" && is_number(words[1]))
+          line.replace(line.find(words[0]), 3, "0");
       const std::size_t n = text.lines.size(), marker = text.find("spectra used in search", 0, n);
       std::size_t       k = marker < n ? marker + 1 : 0;
       std::string       word; // the first one of line k
@@ -216,7 +217,7 @@ namespace Voussoir
         throw InputError("The spectrum '" + file + "' must begin at a period of at most " +
                          number_text(range.first) + " s (0: peak acceleration) and end at " +
                          number_text(range.last) + " s or later, but it has " + number_text(first) +
-                         " s to " + number_text(last) + " s. Add the missing lines.");
+                         " s to " + number_text(last) + " s. Add the missing lines" + range.advice + ".");
     }
   } // namespace
 
@@ -252,7 +253,7 @@ namespace Voussoir
     SpectrumTable spectrum;
     spectrum.damping = damping_in(content);
     std::string       format = cut_to_table(content);
-    const NumberTable table = read_number_table(content, period_of_name);
+    const NumberTable table = read_number_table(content);
     const bool        of_sites = table.headings.size() > 2 && lower_case(table.headings[0].text) == "lon";
     if (of_sites)
       format = "OpenQuake", spectrum.damping = .05;

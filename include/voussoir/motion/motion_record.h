@@ -4,8 +4,6 @@
 
 #include <voussoir/motion/record_formats.h>
 
-#include <functional>
-
 namespace Voussoir
 {
   /** Reads a table or a file of an agency (record_format_of()). Its content determines the format.
@@ -45,10 +43,9 @@ namespace Voussoir
     std::string                      unit;     ///< unit_name() in the headings, or empty
   };
 
-  /** Reads a table with any number of columns. @p named returns the number that the first word of a row means, or
-   * NaN. Throws InputError with file and line if a value is not a finite number. */
-  NumberTable read_number_table(const RecordText                                 &text,
-                                const std::function<double(const std::string &)> &named = nullptr);
+  /** Reads a table with any number of columns. Throws InputError with file and line if a value is not a finite
+   * number. */
+  NumberTable read_number_table(const RecordText &text);
 } // namespace Voussoir
 
 #endif

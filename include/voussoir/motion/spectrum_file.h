@@ -37,8 +37,9 @@ namespace Voussoir
   /** Periods that a spectrum must cover [s]. */
   struct PeriodRange
   {
-    double first; ///< largest first period: its value is the peak acceleration
-    double last;  ///< smallest last period
+    double      first;       ///< largest first period: its value is the peak acceleration
+    double      last;        ///< smallest last period
+    std::string advice = ""; ///< for the message: another way to satisfy the range
   };
 
   /** Returns file and choice of text such as "uhs.csv: 0.1". The choice is empty if the whole text names a file. */
