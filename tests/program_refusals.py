@@ -249,5 +249,25 @@ def spectrum():
         expect(result.returncode == 0 and all(part in result.stderr for part in parts), f"{result}")
 
 
+def suite():
+    """Records that cannot be scaled to a spectrum."""
+    write("scene.prm", "subsection Motion\n  set Source = file\n  set Match = scale\n  set Target spectrum = target.csv\nend\n")
+    write("target.csv", "T (s), Sa (g)\n0,.2\n4,.1\n")
+    write("record.csv", "".join(f"{.02 * k:.2f} {k % 7 - 3} {k % 5 - 2} {k % 3 - 1}\n" for k in range(100)))
+    record = "Motion/File=record.csv"
+    refuse(["motion", "scene.prm", "--output", "out.csv"], (
+        ("Motion/Source=artificial", ("Motion/Match is scale", "artificial")),
+        (record, "Motion/Target spectrum=", ("Motion/Match is scale", "no Motion/Target spectrum")),
+        (record, "Motion/Abutments=left 5: record.csv", "Foundation/Model=massless", ("Motion/Match is scale", "Motion/Abutments")),
+        (record, "Motion/Match band=2, 0.2", ("Motion/Match band is 2, 0.2", "shorter one first")),
+        (record, "Motion/Match band=0.2", ("Motion/Match band is 0.2", "two periods")),
+        (record, "Motion/Match band=0.2, x", ("Motion/Match band", "'x'")),
+        (record, "Motion/Match band=0.2, 5", ("target.csv", "at 5 s or later", "change Motion/Match band")),
+        (record, "Motion/Time step=0.05", ("Motion/Time step", "0.02 s")),
+        (record, "Motion/Damping=0.02", "Motion/Target spectrum=other.csv", ("other.csv", "cannot be opened")),
+        ("Motion/Ensemble=record.csv; none.csv", ("none.csv", "cannot be opened"))))
+    refused(["motion", "scene.prm", "--output", "suite.csv", *settings("Motion/Ensemble=record.csv")], "suite.csv", "another")
+
+
 if __name__ == "__main__":
-    run_cases(base, lift, gaps, cohesive, choices, damping, explicit, intervals, own_steps, zones, plane_strain, spectrum)
+    run_cases(base, lift, gaps, cohesive, choices, damping, explicit, intervals, own_steps, zones, plane_strain, spectrum, suite)

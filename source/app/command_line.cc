@@ -210,9 +210,8 @@ namespace Voussoir
             const std::filesystem::path output = arguments.value("--output");
             const std::string           suite = (output.parent_path() / "suite.csv").string();
             if (output.filename() == "suite.csv")
-              throw InputError("--output " + output.string() +
-                               ": this is the name of the table of all motions of "
-                               "Motion/Ensemble. Choose another one for the first motion.");
+              throw InputError(
+                  "--output suite.csv: the table of all motions has this name. Choose another one.");
             scene.check_output(suite);
             write_suite(members, scene.directory, suite);
             std::cout << "Factors, misfits and measures of all motions: " << suite << '\n';

@@ -203,12 +203,12 @@ namespace Voussoir
     }
     if (parameters.source == "file")
       check_azimuths(parameters, scene_directory);
-    MotionParameters with_target = parameters;
-    with_target.read_target(scene_directory);
+    MotionParameters  with_target = parameters;
+    const std::string note = with_target.read_target(scene_directory);
     motion = make_sequence(with_target, scene_directory);
     check_samples(motion);
-    if (const std::string &note = with_target.note_of_target(); !note.empty())
-      motion.notes.push_back("target spectrum '" + parameters.target_file + "': " + note);
+    if (!note.empty())
+      motion.notes.push_back(note);
     add_stations(with_target, scene_directory, motion);
     return motion;
   }

@@ -606,10 +606,10 @@ namespace Voussoir
     return "'" + name + "'";
   }
 
-  void MotionParameters::read_target(const std::string &scene_directory)
+  std::string MotionParameters::read_target(const std::string &scene_directory)
   {
     if (!has_target() || target_file.empty())
-      return;
+      return "";
     target_spectrum =
         read_spectrum((std::filesystem::path(scene_directory) / target_file).string(), unit, vertical_ratio,
                       match == "scale" && source == "file"
@@ -619,6 +619,7 @@ namespace Voussoir
       throw InputError("The spectrum '" + target_file + "' is for a damping ratio of " +
                        number_text(of_file) + ", but Motion/Damping is " + number_text(damping) +
                        ". Set Motion/Damping = " + number_text(of_file) + ", or give another spectrum.");
+    return "target spectrum '" + target_file + "': " + target_spectrum.note;
   }
 
   void MotionParameters::add_choices(ModelChoices &choices) const

@@ -113,10 +113,10 @@ namespace Voussoir
     }
 
     /** Returns the meaning of a heading such as "a_x [cm/s2]", "Acc. N-S (g)", EW or "Time (s)". */
-    TableColumn column_of(const std::string &heading)
+    Heading column_of(const std::string &heading)
     {
       const std::string keys = "acceleration accel acc a velocity vel v displacement disp d u time t ";
-      TableColumn       column{trimmed(heading), "", '?', {}};
+      Heading           column{trimmed(heading), "", '?', {}};
       const std::string text = lower_case(column.text) + " ";
       std::string       name;
       for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1)
@@ -168,12 +168,12 @@ namespace Voussoir
     }
 
     /** Returns the headings of the columns, separated by semicolons, tabs, commas or blanks. */
-    std::vector<TableColumn> columns_of(const std::string &line)
+    std::vector<Heading> columns_of(const std::string &line)
     {
-      const std::size_t at = std::min(line.find_first_of(";\t"), line.find(','));
-      const char        separator = line.find(';') < line.size() ? ';' : at < line.size() ? line[at] : ' ';
-      std::vector<TableColumn> columns;
-      std::istringstream       cells(line);
+      const std::size_t    at = std::min(line.find_first_of(";\t"), line.find(','));
+      const char           separator = line.find(';') < line.size() ? ';' : at < line.size() ? line[at] : ' ';
+      std::vector<Heading> columns;
+      std::istringstream   cells(line);
       for (std::string cell; std::getline(cells, cell, separator);)
         if (separator == ' ' && !columns.empty() && !cell.empty() && (cell[0] == '(' || cell[0] == '['))
           columns.back() = column_of(columns.back().text + " " + cell);
@@ -181,9 +181,9 @@ namespace Voussoir
           columns.push_back(column_of(cell));
       while (!columns.empty() && columns.back().text.empty())
         columns.pop_back();
-      const bool is_north_known = std::any_of(columns.begin(), columns.end(),
-                                              [](const TableColumn &c) { return c.channel.axis == 'h'; });
-      for (TableColumn &column : columns)
+      const bool is_north_known =
+          std::any_of(columns.begin(), columns.end(), [](const Heading &c) { return c.channel.axis == 'h'; });
+      for (Heading &column : columns)
         if (const std::string cell = lower_case(column.text) + " ";
             is_north_known && cell[0] == 'u' && cell.find_first_of(" ([") == 1) // E, N, U
           column = column_of("up" + column.text.substr(1));
@@ -191,13 +191,13 @@ namespace Voussoir
     }
 
     /** Throws InputError unless the columns are accelerations of one unit, and one time if @p is_timed. */
-    void check_columns(const RecordText &text, const std::size_t line,
-                       const std::vector<TableColumn> &columns, const bool is_timed)
+    void check_columns(const RecordText &text, const std::size_t line, const std::vector<Heading> &columns,
+                       const bool is_timed)
     {
       unsigned int                      n_times = 0;
       std::string                       unit;
       std::set<std::pair<char, double>> directions;
-      for (const TableColumn &column : columns)
+      for (const Heading &column : columns)
       {
         const std::string name = "the column '" + column.text + "' ";
         if (column.unit.find_first_of("([") == 0)
@@ -258,19 +258,18 @@ namespace Voussoir
 
     /** Returns the columns that the first line names, and removes it from @p lines. Without headings, or if no
      * word is known, there are none. Throws InputError if their number differs from that of the numbers. */
-    std::vector<TableColumn> take_headings(const RecordText &text, std::vector<Line> &lines,
-                                           std::string &notes)
+    std::vector<Heading> take_headings(const RecordText &text, std::vector<Line> &lines, std::string &notes)
     {
       if (!has_headings(lines))
         return {};
-      const std::size_t              first = lines[0].number;
-      const std::vector<TableColumn> columns =
+      const std::size_t          first = lines[0].number;
+      const std::vector<Heading> columns =
           columns_of(text.lines[first].substr(0, text.lines[first].find('#')));
       lines.erase(lines.begin());
       if (lines.empty() || lines[0].words.size() == columns.size() ||
           has_headings(lines)) // reported by rows_of()
         return columns;
-      if (std::any_of(columns.begin(), columns.end(), [](const TableColumn &c) { return c.quantity != '?'; }))
+      if (std::any_of(columns.begin(), columns.end(), [](const Heading &c) { return c.quantity != '?'; }))
         text.fail(first, std::to_string(columns.size()) + " headings, " +
                              std::to_string(lines[0].words.size()) +
                              " columns. Give each column one heading, and put # before other text.");
@@ -285,9 +284,9 @@ namespace Voussoir
       std::vector<Line> lines = lines_of(text, headings);
       const std::size_t first = lines.empty() ? 0 : lines[0].number;
       record.notes = "table";
-      const std::vector<TableColumn> columns = take_headings(text, lines, record.notes);
-      const bool                     is_time_named = std::any_of(columns.begin(), columns.end(),
-                                                                 [](const TableColumn &c) { return c.quantity == 't'; }),
+      const std::vector<Heading> columns = take_headings(text, lines, record.notes);
+      const bool                 is_time_named = std::any_of(columns.begin(), columns.end(),
+                                                             [](const Heading &c) { return c.quantity == 't'; }),
                  is_timed = !(step > 0. && (columns.empty() ? !lines.empty() && lines[0].words.size() == 1
                                                             : !is_time_named));
       const auto rows = rows_of(text, lines, n_channels == 0 ? 0 : n_channels + is_timed, n_channels);

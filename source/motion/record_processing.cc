@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -261,33 +260,37 @@ namespace Voussoir
           " samples, too few for Motion/Baseline. Set Baseline to none, or give a longer record.");
     if (parameters.match == "true")
       check_length(motion.acceleration.size() - 1, motion.dt);
-    const auto replace = [&](const std::function<Vector(const Vector &, unsigned int)> &changed)
+    const auto begin = [&] // of a change to the target
     {
-      for (unsigned int d = 0; d < 3; ++d)
-        if (const Vector a = motion.component(d); !is_zero(a) && factors[d] != 0.)
-        {
-          const Vector result = changed(a, d);
-          for (std::size_t k = 0; k < a.size(); ++k)
-            motion.acceleration[k][d] = result[k];
-        }
+      const auto [mean, misfit] = log_misfit(motion, parameters, factors);
+      motion.fit = {std::exp(mean), misfit, misfit};
     };
-    if (parameters.baseline != "none")
-      replace([&](const Vector &a, const unsigned int d)
-              { return corrected(a, motion, parameters, d, factors[d], has_zero_ends); });
+    if (parameters.match == "true")
+      begin();
+    for (unsigned int d = 0; d < 3; ++d)
+    {
+      Vector a = motion.component(d);
+      if (is_zero(a) || factors[d] == 0.)
+        continue;
+      if (parameters.baseline != "none")
+        a = corrected(a, motion, parameters, d, factors[d], has_zero_ends);
+      if (parameters.match == "true")
+        a = matched(a, motion, parameters, d, factors[d]);
+      for (std::size_t k = 0; k < a.size(); ++k)
+        motion.acceleration[k][d] = a[k];
+    }
     if (parameters.match == "false")
       return;
-    const auto [mean, before] = log_misfit(motion, parameters, factors);
-    motion.fit = {std::exp(mean), before, 0.};
     if (parameters.match == "scale")
+    {
+      begin();
       motion = motion.scaled(motion.fit.factor);
-    else
-      replace([&](const Vector &a, const unsigned int d)
-              { return matched(a, motion, parameters, d, factors[d]); });
+    }
     motion.fit.misfit_after = log_misfit(motion, parameters, factors)[1];
     if (parameters.match == "scale")
       motion.notes.push_back("multiplied by " + number_text(motion.fit.factor) + ", scaled to '" +
                              parameters.target_file + "' from " + number_text(parameters.band()[0]) +
                              " s to " + number_text(parameters.band()[1]) + " s; misfit of the spectrum " +
-                             percent(before) + ", now " + percent(motion.fit.misfit_after));
+                             percent(motion.fit.misfit_before) + ", now " + percent(motion.fit.misfit_after));
   }
 } // namespace Voussoir

@@ -15,10 +15,11 @@ namespace Voussoir
 {
   namespace
   {
-    [[noreturn]] void fail_in_spectrum(const std::string &file, const std::size_t line,
-                                       const std::string &message)
+    /** Throws InputError. @p line: 0 if the whole file is meant */
+    [[noreturn]] void fail_in(const std::string &file, const std::string &message, const std::size_t line = 0)
     {
-      throw InputError("Spectrum '" + file + "', line " + std::to_string(line) + ": " + message);
+      throw InputError(line == 0 ? "The spectrum '" + file + "' " + message
+                                 : "Spectrum '" + file + "', line " + std::to_string(line) + ": " + message);
     }
 
     /** One spectrum of a file. */
@@ -67,12 +68,9 @@ namespace Voussoir
       for (std::size_t k = 0; k < std::min<std::size_t>(text.lines.size(), 200); ++k)
         if (const std::string line = lower_case(text.lines[k].substr(0, 200)); // the search is recursive
             std::regex_search(line, found, phrase))
-        {
-          const double number = leading_number(found[1].str() + found[2].str());
-          const bool   in_percent = found[1].matched || found[3].length() > 0 || number >= 1.;
-          if (number > 0. && number < 100.)
-            return in_percent ? .01 * number : number;
-        }
+          if (const double number = leading_number(found[1].str() + found[2].str());
+              number > 0. && number < 100.)
+            return (found[1].matched || found[3].length() > 0 || number >= 1. ? .01 : 1.) * number;
       return 0.;
     }
 
@@ -106,38 +104,36 @@ namespace Voussoir
     std::vector<Candidate> columns_of_table(const std::string &file, const NumberTable &table)
     {
       if (table.rows.empty())
-        throw InputError("The spectrum '" + file +
-                         "' has no numbers. Write one line per period: period [s], " +
-                         "pseudo-acceleration.");
-      std::vector<TableColumn> columns = table.headings;
-      const std::size_t        n = table.rows[0].size();
+        fail_in(file, "has no numbers. Write one line per period: period [s], pseudo-acceleration.");
+      std::vector<Heading> columns = table.headings;
+      const std::size_t    n = table.rows[0].size();
       if (columns.empty())
         columns.resize(n);
       else if (columns.size() == 2 && n == 4) // one heading for x, y, z
         columns[1].text.clear(), columns.resize(n, columns[1]);
       for (std::size_t i = 0; i < table.rows.size(); ++i)
         if (table.rows[i].size() != columns.size() || n < 2 || (table.headings.empty() && n != 2 && n != 4))
-          fail_in_spectrum(
-              file, table.lines[i],
-              std::to_string(table.rows[i].size()) + " columns. Expected two, period and " +
-                  "pseudo-acceleration, or four, period and pseudo-acceleration in x, y, z, or one for each " +
-                  "heading, equal in all lines. One line of headings without numbers may come first; put # " +
-                  "before other text.");
-      const auto is = [](const TableColumn &column, const char quantity, const char *name)
+          fail_in(
+              file,
+              std::to_string(table.rows[i].size()) +
+                  " columns. Expected two, period and pseudo-acceleration, or four, period and "
+                  "pseudo-acceleration in x, y, z, or one for each heading, equal in all lines. One line of "
+                  "headings without numbers may come first; put # before other text.",
+              table.lines[i]);
+      const auto is = [](const Heading &column, const char quantity, const char *name)
       { return column.quantity == quantity || lower_case(column.text).rfind(name, 0) == 0; };
       const auto        first = std::find_if(columns.begin(), columns.end(),
-                                             [&](const TableColumn &column)
+                                             [&](const Heading &column)
                                              { return is(column, 't', "period") || is(column, 'f', "freq"); });
       const std::size_t at = first == columns.end() ? 0 : first - columns.begin();
       const bool        is_frequency = is(columns[at], 'f', "freq");
       if (const std::string unit = is_frequency ? "Hz" : "s";
           !columns[at].unit.empty() && columns[at].unit != unit)
-        throw InputError("The spectrum '" + file + "' has the column '" + columns[at].text +
-                         "'. Give it in " + unit + ".");
+        fail_in(file, "has the column '" + columns[at].text + "'. Give it in " + unit + ".");
       const std::regex       other("p?s[vd]([^a-z].{0,99})?"); // velocity or displacement
       std::vector<Candidate> result;
       for (std::size_t c = 0; c < n; ++c)
-        if (const TableColumn &column = columns[c];
+        if (const Heading &column = columns[c];
             c != at && (column.quantity == 'a' ||
                         (column.quantity == '?' && !std::regex_match(lower_case(column.text), other))))
         {
@@ -152,72 +148,61 @@ namespace Voussoir
       return result;
     }
 
-    /** Returns true if there are three spectra without names, or with names that end in x, y and z before the unit. */
-    bool are_components(const std::vector<Candidate> &all)
-    {
-      bool result = all.size() == 3;
-      for (unsigned int d = 0; d < 3 && result; ++d)
-      {
-        const std::string name = trimmed(all[d].name.substr(0, all[d].name.find_first_of("([,")));
-        result = name.empty() || lower_case(name).back() == "xyz"[d];
-      }
-      return result;
-    }
-
     /** Returns the chosen spectrum, or three for x, y, z. Throws InputError if the choice is unknown or ambiguous. */
     std::vector<Candidate> selected(const std::string &file, const std::string &choice,
                                     const std::vector<Candidate> &all)
     {
       std::vector<Candidate> found;
-      std::string            names;
+      std::string            names, ends; // ends: last letters before the units
       for (const Candidate &spectrum : all)
       {
         const std::string name = lower_case(spectrum.name);
         if (choice.empty() ? name.rfind("target", 0) == 0 : name == lower_case(choice))
           found.push_back(spectrum);
+        if (const std::string stem = trimmed(name.substr(0, name.find_first_of("([,"))); !stem.empty())
+          ends += stem.back();
         if (&spectrum - all.data() < 12)
           names += (names.empty() ? "" : "; ") + spectrum.name;
       }
       if (found.size() == 1)
         return found;
-      if (choice.empty() && (all.size() == 1 || are_components(all)))
+      if (choice.empty() && (all.size() == 1 || (all.size() == 3 && (ends.empty() || ends == "xyz"))))
         return all;
       if (all.empty())
-        throw InputError(
-            "The spectrum '" + file +
-            "' has no column of accelerations. Give a column with a heading such as \"Sa (g)\".");
-      throw InputError("The spectrum '" + file + "' has " + std::to_string(all.size()) + " spectra" +
-                       (choice.empty() ? "" : ", none or several of them named '" + choice + "'") + ": " +
-                       names + (all.size() > 12 ? "; ..." : "") +
-                       ". Write the name of one of them after the file, as in \"" + file + ": " +
-                       all[0].name + "\".");
+        fail_in(file, "has no column of accelerations. Give one with a heading such as \"Sa (g)\".");
+      fail_in(file, "has " + std::to_string(all.size()) + " spectra" +
+                        (choice.empty() ? "" : ", none or several of them named '" + choice + "'") + ": " +
+                        names + (all.size() > 12 ? "; ..." : "") +
+                        ". Write the name of one of them after the file, as in \"" + file + ": " +
+                        all[0].name + "\".");
     }
 
     void check_points(const std::string &file, const Candidate &spectrum, const PeriodRange &range)
     {
       if (spectrum.unit.find_first_of("([") == 0)
-        throw InputError("The spectrum '" + file + "' has the column '" + spectrum.name + "' with the unit " +
-                         spectrum.unit + ", which is unknown. Use g, %g, gal, cm/s^2 or m/s^2.");
+        fail_in(file, "has the column '" + spectrum.name + "' with the unit " + spectrum.unit +
+                          ", which is unknown. Use g, %g, gal, cm/s^2 or m/s^2.");
       for (std::size_t i = 0; i < spectrum.points.size(); ++i)
       {
         const auto &[period, a, line] = spectrum.points[i];
         if (!(period >= 0. && std::isfinite(period)) ||
             (i > 0 && period <= std::get<0>(spectrum.points[i - 1])))
-          fail_in_spectrum(file, line,
-                           "the period is " + number_text(period) +
-                               " s. Periods must not be negative, and must increase from line to line.");
+          fail_in(file,
+                  "the period is " + number_text(period) +
+                      " s. Periods must not be negative, and must increase from line to line.",
+                  line);
         if (!(a > 0.))
-          fail_in_spectrum(
-              file, line,
-              "the acceleration is " + number_text(a) +
-                  ". It must be positive. Set Motion/Scale x, y or z to 0 for a component at rest.");
+          fail_in(file,
+                  "the acceleration is " + number_text(a) +
+                      ". It must be positive. Set Motion/Scale x, y or z to 0 for a component at rest.",
+                  line);
       }
       const double first = std::get<0>(spectrum.points.front()), last = std::get<0>(spectrum.points.back());
       if (first > range.first || last < range.last)
-        throw InputError("The spectrum '" + file + "' must begin at a period of at most " +
-                         number_text(range.first) + " s (0: peak acceleration) and end at " +
-                         number_text(range.last) + " s or later, but it has " + number_text(first) +
-                         " s to " + number_text(last) + " s. Add the missing lines" + range.advice + ".");
+        fail_in(file, "must begin at a period of at most " + number_text(range.first) +
+                          " s (0: peak acceleration) and end at " + number_text(range.last) +
+                          " s or later, but it has " + number_text(first) + " s to " + number_text(last) +
+                          " s. Add the missing lines" + range.advice + ".");
     }
   } // namespace
 
@@ -257,25 +242,27 @@ namespace Voussoir
     const bool        of_sites = table.headings.size() > 2 && lower_case(table.headings[0].text) == "lon";
     if (of_sites)
       format = "OpenQuake", spectrum.damping = .05;
-    const std::vector<Candidate> all = columns_of_table(file, table),
-                                 found = selected(file, choice, of_sites ? hazard_spectra(table) : all);
-    for (const Candidate &component : found)
-      check_points(file, component, range);
+    const std::vector<Candidate> all = columns_of_table(file, table);
+    std::vector<Candidate>       found = selected(file, choice, of_sites ? hazard_spectra(table) : all);
     spectrum.states_unit = !found[0].unit.empty();
-    const std::string otherwise = unit.empty() ? "m/s^2" : unit,
-                      own_unit = spectrum.states_unit ? found[0].unit : otherwise;
+    for (Candidate &component : found)
+    {
+      check_points(file, component, range);
+      if (component.unit.empty())
+        component.unit = unit.empty() ? "m/s^2" : unit;
+    }
     for (const auto &point : found[0].points)
       spectrum.periods.push_back(std::get<0>(point));
     for (unsigned int d = 0; d < 3; ++d)
     {
       const Candidate &component = found[found.size() == 3 ? d : 0];
-      const double     factor = unit_of_acceleration(component.unit.empty() ? otherwise : component.unit) *
-                            (found.size() == 1 && d == 2 ? vertical_ratio : 1.);
+      const double     factor =
+          unit_of_acceleration(component.unit) * (found.size() == 1 && d == 2 ? vertical_ratio : 1.);
       for (const auto &point : component.points)
         spectrum.acceleration[d].push_back(factor * std::get<1>(point));
     }
     spectrum.note =
-        format + (found[0].name.empty() ? "" : " '" + found[0].name + "'") + ", unit " + own_unit +
+        format + (found[0].name.empty() ? "" : " '" + found[0].name + "'") + ", unit " + found[0].unit +
         (spectrum.states_unit ? "" : " (assumed: the file has none)") + ", damping ratio " +
         (spectrum.damping > 0. ? number_text(spectrum.damping) : "not stated") + ", " +
         std::to_string(spectrum.periods.size()) + " periods from " + number_text(spectrum.periods.front()) +

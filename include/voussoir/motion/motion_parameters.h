@@ -117,12 +117,9 @@ namespace Voussoir
      * first_period and last_period. Throws InputError if the entry is wrong. */
     std::array<double, 2> band() const;
 
-    /** Reads "Target spectrum" if it is given. Throws InputError, see read_spectrum(), and for another damping ratio
-     * than "Damping". Required before target(). */
-    void read_target(const std::string &scene_directory);
-
-    /** Returns SpectrumTable::note, or an empty string before read_target(). */
-    const std::string &note_of_target() const { return target_spectrum.note; }
+    /** Reads "Target spectrum" if it is given. Returns a note for the log. Throws InputError, see read_spectrum(), and
+     * for another damping ratio than "Damping". Required before target(). */
+    std::string read_target(const std::string &scene_directory);
 
     /** Returns true if "Target spectrum" was read, and its headings state no unit. */
     bool target_lacks_unit() const

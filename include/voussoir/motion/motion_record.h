@@ -25,7 +25,7 @@ namespace Voussoir
   MotionRecord read_motion_record(const std::string &file, unsigned int n_channels, double step = 0.);
 
   /** Heading of a column such as "a_x [cm/s2]", "Acc. N-S (g)", EW or "Period (s)". */
-  struct TableColumn
+  struct Heading
   {
     std::string   text;
     std::string   unit; ///< unit_name(), or an unknown unit with its parentheses, as in "(mg)", or empty
@@ -37,7 +37,7 @@ namespace Voussoir
    * read_motion_record(). */
   struct NumberTable
   {
-    std::vector<TableColumn>         headings; ///< of the first line, or empty
+    std::vector<Heading>             headings; ///< of the first line, or empty
     std::vector<std::vector<double>> rows;     ///< at least one number each
     std::vector<std::size_t>         lines;    ///< number of the line of each row
     std::string                      unit;     ///< unit_name() in the headings, or empty
