@@ -218,7 +218,8 @@ def path_of(value, study):
 AS_IT_IS = {"Motion/Source": "file", "Motion/File x": "", "Motion/File y": "", "Motion/File z": "", "Motion/File step": 0, "Motion/Azimuths": "",
             "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1, "Motion/Scale z": 1,
             "Motion/Sequence": "", "Motion/Ensemble": "", "Motion/Ensemble factors": "", "Motion/Ensemble output": "",
-            "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false"}
+            "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false",
+            "Motion/Match band": ""}
 
 
 def is_file_entry(entry):

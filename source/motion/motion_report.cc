@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/number_text.h>
-#include <voussoir/base/output_file.h>
-#include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/motion/response_spectrum.h>
 #include <voussoir/motion/spectral_matching.h>
@@ -264,33 +261,5 @@ namespace Voussoir
     for (const std::string &warning : motion_warnings(report))
       table << "warning: " << warning << '\n';
     out << table.str();
-  }
-
-  void write_suite(const std::vector<EnsembleMember> &members, const std::string &scene_directory,
-                   const std::string &file)
-  {
-    OutputFile out(file);
-    out << std::setprecision(9) << "motion,name,factor,misfit_before,misfit_after";
-    for (const char c : {'x', 'y', 'z'})
-      for (const char *name : {"peak_acceleration", "peak_velocity", "peak_displacement", "arias_intensity",
-                               "significant_duration"})
-        out << ',' << name << '_' << c;
-    out << ",rotd50_0.2,rotd100_0.2,rotd50_1,rotd100_1\n";
-    for (std::size_t i = 0; i < members.size() && members[i].factor == members[0].factor; ++i)
-    {
-      const GroundMotion motion = make_motion(members[i].motion, scene_directory);
-      out << i + 1 << ',' << std::quoted(members[i].name, '"', '"') << ',' << motion.fit.factor;
-      for (const double misfit : {motion.fit.misfit_before, motion.fit.misfit_after})
-        out << ',' << (std::isnan(misfit) ? std::string() : number_text(100. * misfit));
-      for (const Component &c : report_motion(motion, members[i].motion).components)
-        out << ',' << c.peak_acceleration << ',' << c.peak_velocity << ',' << c.peak_displacement << ','
-            << c.arias_intensity << ',' << c.significant_duration;
-      for (const double period : {.2, 1.})
-        for (const double value : rotated_response(motion.component(0), motion.component(1), motion.dt,
-                                                   period, members[i].motion.damping))
-          out << ',' << value;
-      out << '\n';
-    }
-    out.check();
   }
 } // namespace Voussoir

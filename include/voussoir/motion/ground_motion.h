@@ -28,7 +28,7 @@ namespace Voussoir
    * the horizontal components and MotionParameters::band(), at equal ratios of the periods. */
   struct TargetFit
   {
-    double factor = 1.;                                               ///< scale_to_target() [-]
+    double factor = 1.; ///< of "scale", see process_record() [-]
     double misfit_before = std::nan(""), misfit_after = std::nan(""); ///< [-]; NaN without "Match"
   };
 

@@ -58,12 +58,6 @@ namespace Voussoir
 
   /** Prints a table of the measures, and then the warnings. */
   void print_report(const MotionReport &report, std::ostream &out);
-
-  /** Writes a table with one row for each motion of an ensemble, with its first factor: TargetFit, the measures of
-   * MotionReport, and rotated_response() at 0.2 s and 1 s, in SI units. Throws InputError as make_motion(), and
-   * WriteError. @param file path of suite.csv */
-  void write_suite(const std::vector<EnsembleMember> &members, const std::string &scene_directory,
-                   const std::string &file);
 } // namespace Voussoir
 
 #endif
