@@ -213,8 +213,7 @@ namespace Voussoir
         if (!std::filesystem::is_regular_file(file_and_choice(choice).first))
           throw InputError(
               "--spectrum " + choice +
-              ": this file cannot be read. Give --spectrum design, or the path of "
-              "a table with the columns period [s] and acceleration [m/s^2], or a uniform hazard spectrum.");
+              ": this file cannot be read. Give --spectrum design, or a table of period [s] and acceleration.");
         const SpectrumTable table =
             read_spectrum(choice, "", scene.motion.vertical_ratio, {SpectrumTable::rigid_period, .1});
         if (const double peak = table.at(0, 0.); !table.states_unit && peak < 1.)

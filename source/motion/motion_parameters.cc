@@ -69,12 +69,11 @@ namespace Voussoir
         {1., 60., true});
     prm.add_parameter(
         "Target spectrum", target_file,
-        "File with the columns period [s] or frequency [Hz] and pseudo-acceleration for the damping ratio Damping, "
-        "or with one pseudo-acceleration for each of x, y, z; or a uniform hazard spectrum of OpenQuake, or a search "
-        "in PEER's data base. Unit of the headings, otherwise as in Unit; period 0 or at "
-        "most 0.02 s first (peak acceleration), at least 3 s last. One column applies to x and "
-        "y, and multiplied by Vertical ratio to z. Of several spectra, the name of one follows, as in "
-        "\"uhs.csv: 0.1\". It replaces the design spectrum of artificial "
+        "File with the columns period [s] or frequency [Hz] and pseudo-acceleration for the damping ratio Damping, or with one "
+        "pseudo-acceleration for each of x, y, z; or a uniform hazard spectrum of OpenQuake, or a search in PEER's data base. Unit of "
+        "the headings, otherwise as in Unit; period 0 or at most 0.02 s first (peak acceleration), at least 3 s last. One column "
+        "applies to x and y, and multiplied by Vertical ratio to z. Of several spectra, the name of one follows, as in \"uhs.csv: "
+        "0.1\". It replaces the design spectrum of artificial "
         "motions, and is the target of Match.",
         Patterns::Anything());
   }
@@ -149,15 +148,13 @@ namespace Voussoir
                       Patterns::Selection("none|linear|quadratic"));
     prm.add_parameter(
         "Match", match,
-        "Source = file: true: each component is changed in the time domain until its response "
-        "spectrum agrees with Target spectrum from 0.04 s to 3 s. scale: each record is multiplied by "
-        "one factor, for which the horizontal spectra in Match band have the mean logarithm of the "
-        "target. Factor and Scale then apply to the matched motion.",
+        "Source = file: true: each component is changed in the time domain until its response spectrum agrees with Target spectrum from "
+        "0.04 s to 3 s. scale: each record is multiplied by one factor, for which the horizontal spectra in Match band have the mean "
+        "logarithm of the target. Factor and Scale then apply to the matched motion.",
         Patterns::Selection("false|true|scale"));
     prm.add_parameter(
         "Match band", match_band,
-        "Match = scale: first and last period [s] of the comparison, as in 0.2, 2. Target spectrum "
-        "must cover them. Empty: 0.04, 3.",
+        "Match = scale: first and last period [s] of the comparison, as in 0.2, 2, which Target spectrum must cover. Empty: 0.04, 3.",
         Patterns::Anything());
   }
 
@@ -264,11 +261,9 @@ namespace Voussoir
     void check_target(const MotionParameters &p)
     {
       if (p.match == "scale" && (p.source == "artificial" || !p.abutments.empty()))
-        throw InputError(std::string("Motion/Match is scale, but ") +
-                         (p.source == "artificial"
-                              ? "Motion/Source is artificial, and artificial motions match the spectrum"
-                              : "the records of Motion/Abutments would have other factors") +
-                         ". Set Match to false, and Motion/Factor to the factor.");
+        throw InputError(
+            "Motion/Match is scale: Motion/Source must be file (artificial motions match their spectrum), "
+            "without Motion/Abutments (each record would have its own factor). Set Match to false.");
       p.band();
       if (p.source == "file" && p.match != "false" && p.target_file.empty())
         throw InputError("Motion/Match is " + p.match +

@@ -116,9 +116,8 @@ namespace Voussoir
           fail_in(
               file,
               std::to_string(table.rows[i].size()) +
-                  " columns. Expected two, period and pseudo-acceleration, or four, period and "
-                  "pseudo-acceleration in x, y, z, or one for each heading, equal in all lines. One line of "
-                  "headings without numbers may come first; put # before other text.",
+                  " columns. Expected two, period and pseudo-acceleration, or four, with those in x, y, z, or one for each "
+                  "heading, equal in all lines. Put # before text other than one line of headings.",
               table.lines[i]);
       const auto is = [](const Heading &column, const char quantity, const char *name)
       { return column.quantity == quantity || lower_case(column.text).rfind(name, 0) == 0; };
