@@ -414,7 +414,8 @@ namespace
     expect_error(bad(".04 1\n3 1\n"), {"input_target.csv", "at most 0.02 s", "0.04 s to 3 s"});
     expect_error(bad("0 1\n2 1\n"), {"at 3 s or later", "0 s to 2 s"});
     expect_error(bad("T Sa\n"), {"no numbers"});
-    expect_error(bad("T Sa [cm/s2]\n0 1\n3 1\n"), {"unit cm/s^2", "Motion/Unit is g"});
+    expect_error(bad("# 2% damping\nT Sa [cm/s2]\n0 1\n3 1\n"),
+                 {"damping ratio of 0.02", "Motion/Damping is 0.05"});
     p.target_file = "input_none.csv";
     expect_error([&] { make_motion(p, ""); }, {"input_none.csv", "cannot be opened"});
   }
@@ -456,9 +457,9 @@ namespace
     for (const std::string sequence : {"a;;b", "a;b;", "a,b", "a,b,", "a,,c", "a,b,c,d", "-", "-,-,-", ",,"})
       wrong([&](MotionParameters &p) { p.source = "file", p.sequence = sequence; }, "Sequence");
     wrong([](MotionParameters &p) { p.source = "file", p.sequence = "a;b", p.file = "c"; }, "Sequence");
-    wrong([](MotionParameters &p) { p.source = "file", p.file = "a", p.match = true; }, "Match");
+    wrong([](MotionParameters &p) { p.source = "file", p.file = "a", p.match = "true"; }, "Match");
     wrong([](MotionParameters &p)
-          { p.source = "file", p.file = "a", p.match = true, p.target_file = "b", p.time_step = .05; },
+          { p.source = "file", p.file = "a", p.match = "true", p.target_file = "b", p.time_step = .05; },
           "Time step");
     wrong([](MotionParameters &p) { p.duration = 0.1; }, "Duration");
     wrong([](MotionParameters &p) { p.duration = 3000.; }, "Duration");

@@ -76,6 +76,9 @@ def rows():
         runs("scene.prm", "--output", directory, *settings(*entries))
     for directory, words in (("modes", ["--count", "1", *WATER]), ("spectrum", ["--count", "1", "--spectrum", "design"])):
         runs("modes", "scene.prm", "--output", directory, *words)
+    Path("suite").mkdir()
+    write("record.csv", "".join(f"{.02 * k:.2f} {k % 7 - 3} {k % 5 - 2} {k % 3 - 1}\n" for k in range(100)))
+    runs("motion", "scene.prm", "--output", "suite/motion.txt", *settings("Motion/Source=file", "Motion/Ensemble=record.csv"))
     explicit = settings("Dynamics/Scheme=explicit", "Joints/Overrides=2: FJB")
     for file, words in (("keys/validate", ["scene.prm", "--validate"]), ("sequence/validate", ["scene.prm", "--validate", *explicit]),
                         ("water/modes", ["modes", "scene.prm", "--count", "1", *WATER])):

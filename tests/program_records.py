@@ -6,10 +6,12 @@
     program_records.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
+import csv
 import math
 import re
 from pathlib import Path
 
+from program_motion import peak_response
 from run_program import run_cases, expect, refused, runs, table, write
 
 G = 9.80665
@@ -254,7 +256,7 @@ BAD = {
     "azimuths without names": (rows(NS, "%.4f", 1), {"File": "f", "File step": ".01", "Azimuths": "x: 0; f: 9; g: 8"}, ("'g'", "channels are f.")),
     "fewer headings": (columns("t,a_z,a_x\n", *THREE), {"File": "f"}, ("line 1", "3 headings, 4 columns")),
     "unknown unit": (columns("t,Acc. X (mg),Acc. Y (mg),Acc. Z (mg)\n", *THREE), {"File": "f"}, ("unit '(mg)' is unknown",)),
-    "percent": (columns("t,Acc. [%g]\n", NS), AT2, ("unit '[%g]' is unknown",)),
+    "percent": (columns("t,Acc. [%]\n", NS), AT2, ("unit '[%]' is unknown",)),
     "u alone": (columns("t,u\n", NS), AT2, ("'u'", "displacement")),
     "no direction": (columns("t,a1,a2\n", EW, NS), TWO, ("unknown",)),
 }
@@ -272,6 +274,106 @@ def sequence():
     refused(["motion", "scene.prm", "--output", "none.csv", *entries(settings)], "'h'", "channels are f, g.")
 
 
+# The same spectrum as OpenQuake, USGS, PEER and codes give it: periods [s] and accelerations [g].
+POINTS = ((.01, .25), (.05, .4), (.2, .55), (1., .15), (4., .03))
+BANNER = "#,,,,,,,\"generated_by='OpenQuake engine 3.16.0', start_date='2023-05-14T10:44:47', checksum=2967670219, kind='mean', investigation_time=50.0\"\n"
+
+
+def hazard(sites=1, shuffled=False):
+    """Uniform hazard spectra of OpenQuake (kind uhs): two probabilities, the second one with twice the accelerations."""
+    points = [(f"SA({t})" if t > .01 else "PGA", a) for t, a in POINTS]
+    pairs = [(poe, name, f * a) for poe, f in (("0.1", 1), ("0.02", 2)) for name, a in (points[::-1] if shuffled else points)]
+    return BANNER + "lon,lat," + ",".join(f"{poe}~{name}" for poe, name, a in pairs) + "\n" + "".join(
+        f"{7 + k:.5f},46.20000," + ",".join(f"{(1 + k) * a:.6E}" for poe, name, a in pairs) + "\n" for k in range(sites))
+
+
+def column(headings, factor=1., first="0.01", separator=","):
+    return headings + "\n" + "".join(f"{t if k else first}{separator}{factor * a:.9g}\n" for k, (t, a) in enumerate(POINTS))
+
+
+SEARCH = (" -- Summary of PEER Ground Motion Search Parameters --\nDamping Ratio:,5%\nSpectral Ordinate:,SRSS\n\n"
+          " -- Summary of Metadata of Selected Records --\n Result ID, Record Sequence Number, Scale Factor, Earthquake Name\n1, 6, 1.25, Imperial Valley-02\n\n"
+          " -- Scaled Spectra used in Search & Scaling --\n"
+          "Period (sec), Target pSa (g), Arithmetic Mean pSa (g), Arithmetic Mean + Sigma pSa (g), RSN-6 Horizontal-1 pSa (g)\n"
+          + "".join(f"{t}, {a}, 0.9, 0.8, 0.7\n" for t, a in POINTS) + "\n -- Unscaled Spectra --\nPeriod (sec), RSN-6 Horizontal-1 pSa (g)\n0.01, 0.6\n")
+SPECTRA = {  # file, choice, parts of the note, first period [s]
+    "uhs.csv": (hazard(), ": 0.1", ("OpenQuake '0.1'", "unit g", "damping ratio 0.05", "5 periods from 0 s to 4 s")),
+    "sites.csv": (hazard(2, True), ":0.1 at 7 46.2", ("'0.1 at 7 46.2'",)),
+    "usgs.csv": ("Edition,Dynamic: Conterminous U.S. 2014 (update)\nReturn Period,2475\n\n" + column('"Period (s)","Ground Motion (g)"', first="PGA"), "",
+                 ("'Ground Motion (g)'", "unit g", "from 0 s")),
+    "nshm.txt": (column("# 5 % damping\nPeriod Sa (g)", separator="\t"), "", ("from 0.01 s", "damping ratio 0.05")),
+    "_SearchResults.csv": (SEARCH, "", ("PEER search 'Target pSa (g)'", "unit g", "damping ratio 0.05", "5 periods")),
+    "code.csv": (column("T [s]; Sa [m/s\u00b2]", G, separator=";"), "", ("unit m/s^2", "not stated")),
+    "gal.csv": (column("Period (s), PSA (gal)", 100 * G), "", ("unit cm/s^2",)),
+    "percent.csv": (column("T (s), Sa (%g), Sv (cm/s)", 100).replace("\n", ",1\n").replace("/s),1", "/s)"), "", ("unit %g",)),
+    "hertz.txt": ("Frequency (Hz) Sa (g)\n" + "".join(f"{1 / t:.9g} {a}\n" for t, a in reversed(POINTS)), "", ("unit g", "0.01 s to 4 s")),
+    "plain.txt": (column("T Sa", separator=" "), "", ("unit g (assumed: the file has none)", "not stated"))}
+
+
+def spectra():
+    """Each file has the same spectrum."""
+    write("record.csv", "t,a_x,a_y,a_z (g)\n" + "".join(f"{.01 * k:.2f},{a},{b},{c}\n" for k, (a, b, c) in enumerate(zip(signal(.3, 0), signal(.2, 3), signal(.1, 5)))))
+    write("scene.prm", SCENE.format(.01))
+    target = None
+    for name, (text, choice, parts) in SPECTRA.items():
+        write(name, text)
+        shown = runs("motion", "scene.prm", "--output", "out.csv", *entries({"File": "record.csv", "Unit": "g", "Target spectrum": name + choice}))
+        note = re.search("^target spectrum .*", shown, re.M)[0]
+        expect(all(part in note for part in (name, *parts)), note)
+        column_of_target = [line.split()[-1] for line in shown.split("target x\n")[1].splitlines()]
+        target = target or column_of_target
+        expect(column_of_target == target and target[2] == "0.550" and target[6] == "0.150", f"{name}: {column_of_target}, {target}")
+
+
+def suite():
+    """Factors and misfits against spectra of this script, and relations between records. The program has 20 steps per period, so that its
+    spectra are up to 1 - cos(pi/20) = 1.2 % smaller."""
+    coarse = 1 - math.cos(math.pi / 20)
+    band, damping, count = (.2, 2.), .07, 100
+    periods = [band[0] * (band[1] / band[0]) ** (k / count) for k in range(count + 1)]
+    series = {"x": [0, *signal(3.125, 0, 199)], "y": [0, *signal(1.8, 3, 199)], "zero": [0] * 200}  # from rest
+    spectra = {c: [peak_response(series[c], .01, t, damping) for t in periods] for c in "xy"}
+    write("own.csv", "T (s), Sa (m/s2)\n" + "".join(f"{t:.15g}, {a:.12g}\n" for t, a in zip(periods, spectra["x"])))
+    for name, f, unit, components in (("one.csv", 1, "m/s2", ("x", "zero", "zero")), ("two.csv", 2, "m/s2", ("x", "zero", "zero")),
+                                      ("both.csv", 1, "m/s2", ("x", "y", "x")), ("gal.csv", 100, "cm/s2", ("x", "y", "x")), ("up.csv", 1, "m/s2", ("zero", "zero", "x"))):
+        write(name, columns(f"t,a_x ({unit}),a_y ({unit}),a_z ({unit})\n", *([f * a for a in series[c]] for c in components)))
+    write("own_g.csv", "T (s), Sa (g)\n" + "".join(f"{t:.15g}, {a / G:.14g}\n" for t, a in zip(periods, spectra["x"])))
+    write("own_gal.csv", "f (Hz), Sa (cm/s2)\n" + "".join(f"{1 / t:.15g}, {100 * a:.14g}\n" for t, a in zip(periods, spectra["x"])))
+    write("scene.prm", SCENE.format(.01))
+
+    def rows_of_suite(ensemble, **more):
+        shown = runs("motion", "scene.prm", "--output", "out.csv", *entries({
+            "Ensemble": ensemble, "Target spectrum": "own.csv", "Match": "scale", "Match band": "0.2, 2", "Damping": damping, "Vertical ratio": .5, **more}))
+        with open("suite.csv") as file:
+            return shown, list(csv.DictReader(file))
+
+    shown, (one, two, both, up) = rows_of_suite("one.csv; two.csv; both.csv; up.csv", Factor=-1.5)
+    expect(one["name"] == "'one.csv'" and 1 <= float(one["factor"]) < 1 + coarse and float(one["misfit_after"]) < float(one["misfit_before"]) < 100 * coarse, f"{one}")
+    expect(f"multiplied by {float(one['factor']):.6f}" in shown and "from 0.2 s to 2 s" in shown, shown)
+    expect(abs(float(two["factor"]) / float(one["factor"]) - .5) < 1e-8 and abs(float(two["misfit_before"]) - 100 * math.log(2)) < 100 * coarse, f"{two}")
+    expect(abs(float(up["factor"]) / float(one["factor"]) - .5) < 1e-8, f"the target of z: {up}")
+    for name in list(one)[4:]:
+        expect(math.isclose(float(one[name]), float(two[name]), rel_tol=1e-8, abs_tol=1e-12), f"{name} of a record and its double: {one[name]}, {two[name]}")
+    close = {"peak_acceleration_x": 1.5 * max(map(abs, series["x"])) * float(one["factor"]), "rotd100_1": 1.5 * peak_response(series["x"], .01, 1., damping)}
+    for name, value in close.items():
+        expect(abs(float(one[name]) / value - 1) < coarse, f"{name}: {one[name]}, {value}")
+    for row in table("out.csv")[1]:
+        expect(abs(row[1] + 1.5 * float(one["factor"]) * series["x"][round(row[0] / .01)]) < 1e-6, f"{row}")
+    logs = [math.log(target / a) for c in "xy" for target, a in zip(spectra["x"], spectra[c])]
+    mean, square = (sum(x ** k for x in logs) / len(logs) for k in (1, 2))
+    for name, value in (("factor", 100 * math.exp(mean)), ("misfit_before", 100 * math.sqrt(square)), ("misfit_after", 100 * math.sqrt(square - mean ** 2))):
+        expect(abs((100 if name == "factor" else 1) * float(both[name]) - value) < 100 * coarse * max(1., math.exp(mean)), f"{name} of two components: {both[name]}, {value}")
+    for target, file, unit in (("own_g.csv", "both.csv", "m/s^2"), ("own_gal.csv", "gal.csv", "cm/s^2")):
+        other = rows_of_suite(file, Factor=-1.5, Unit=unit, **{"Target spectrum": target})[1][0]
+        for name in list(both)[2:]:
+            expect(math.isclose(float(both[name]), float(other[name]), rel_tol=1e-7, abs_tol=1e-9), f"{name} with {target}, {file}: {both[name]}, {other[name]}")
+    raw = rows_of_suite("both.csv", Match="false", **{"Match band": "", "Target spectrum": ""})[1][0]
+    expect(raw["factor"] == "1" and raw["misfit_before"] == raw["misfit_after"] == "", f"{raw}")
+    write("code.csv", column("T (s), Sa (g)").replace("0.01,", "0,"))
+    matched = rows_of_suite("both.csv", Match="true", **{"Match band": "", "Target spectrum": "code.csv"})[1][0]
+    expect(float(matched["misfit_after"]) < 6 < 30 < float(matched["misfit_before"]), f"{matched}")
+
+
 def bad():
     """Files with one error each: one paragraph, exit status 2."""
     write("scene.prm", SCENE.format(.01))
@@ -283,4 +385,4 @@ def bad():
 
 
 if __name__ == "__main__":
-    run_cases(good, sequence, bad)
+    run_cases(good, sequence, spectra, suite, bad)

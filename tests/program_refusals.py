@@ -227,11 +227,47 @@ def spectrum():
                                             ("Motion/Factor=0", ("zero", "Motion/Factor"))))
     write("short.csv", "0 3\n0.1 7\n")
     refused([*run, "--spectrum", "short.csv"], "short.csv ends", "0.1 s")
+    hazard = "lon,lat,0.1~PGA,0.1~SA(4.0),0.02~PGA,0.02~SA(4.0)\n"
+    for text, parts in ((hazard + "7,46,.2,.1,.4,.2\n", ("2 spectra", "0.1; 0.02", '"broken.csv: 0.1"')),
+                        (hazard + "7,46,.2,.1,.4,.2\n8,46,.2,.1,.4,.2\n", ("4 spectra", "0.02 at 8 46")),
+                        (hazard + "7,46,.2,.1,.4\n", ("line 2", "5 columns")),
+                        ("Period (s),DBE (g),MCE (g)\n0,.2,.3\n4,.1,.2\n", ("2 spectra", "DBE (g); MCE (g)")),
+                        ("T (s),A,B,C\n0,1,1,1\n4,1,1,1\n", ("3 spectra", "A; B; C")),
+                        ("T (s),Sd (cm)\n0,.2\n4,.1\n", ("no column of accelerations",)), ("T (s),PSV\n0,.2\n4,.1\n", ("no column of accelerations",)),
+                        ("T (s),Sa (mg)\n0,.2\n4,.1\n", ("Sa (mg)", "unit (mg)", "%g")), ("T (ms),Sa (g)\n0,.2\n4,.1\n", ("T (ms)", "in s.")),
+                        ("f (Hz),Sa (g)\n0,.2\n50,.1\n", ("line 2", "inf s")), ('{"period": [0, 1]}', ("no numbers",)),
+                        ("Unscaled\n -- Scaled Spectra used in Search & Scaling --\nPeriod (sec),Mean pSa (g),RSN-6 pSa (g)\n0.01,.2,.3\n4,.1,.2\n",
+                         ("2 spectra", "Mean pSa (g); RSN-6 pSa (g)"))):
+        write("broken.csv", text)
+        refused([*run, "--spectrum", "broken.csv"], "broken.csv", *parts)
+    refused([*run, "--spectrum", "broken.csv: 0.3"], "named '0.3'", "Mean pSa (g)")
     write("weak.csv", "0 0.3\n4 0.1\n")
-    for arguments, parts in ((["weak.csv"], ("weak.csv is 0.3 m/s^2", "headings")), (["design", *settings("Damping/Ratio=0.1")], ("Motion/Damping", "0.1"))):
+    write("uhs.csv", hazard + "7,46,.2,.1,.4,.2\n")
+    for arguments, parts in ((["weak.csv"], ("weak.csv is 0.3 m/s^2", "headings")), (["design", *settings("Damping/Ratio=0.1")], (" (of its file, or Motion/Damping), but Damping/Ratio is 0.1",)),
+                             (["uhs.csv: 0.02", *settings("Damping/Ratio=0.1")], ("ratio of 0.05 (of its file",))):
         result = voussoir(*run, "--spectrum", *arguments)
         expect(result.returncode == 0 and all(part in result.stderr for part in parts), f"{result}")
 
 
+def suite():
+    """Records that cannot be scaled to a spectrum."""
+    write("scene.prm", "subsection Motion\n  set Source = file\n  set Match = scale\n  set Target spectrum = target.csv\nend\n")
+    write("target.csv", "T (s), Sa (g)\n0,.2\n4,.1\n")
+    write("record.csv", "".join(f"{.02 * k:.2f} {k % 7 - 3} {k % 5 - 2} {k % 3 - 1}\n" for k in range(100)))
+    record = "Motion/File=record.csv"
+    refuse(["motion", "scene.prm", "--output", "out.csv"], (
+        ("Motion/Source=artificial", ("Motion/Match is scale", "artificial")),
+        (record, "Motion/Target spectrum=", ("Motion/Match is scale", "no Motion/Target spectrum")),
+        (record, "Motion/Abutments=left 5: record.csv", "Foundation/Model=massless", ("Motion/Match is scale", "Motion/Abutments")),
+        (record, "Motion/Match band=2, 0.2", ("Motion/Match band is 2, 0.2", "shorter one first")),
+        (record, "Motion/Match band=0.2", ("Motion/Match band is 0.2", "two periods")),
+        (record, "Motion/Match band=0.2, x", ("Motion/Match band", "'x'")),
+        (record, "Motion/Match band=0.2, 5", ("target.csv", "at 5 s or later", "change Motion/Match band")),
+        (record, "Motion/Time step=0.05", ("Motion/Time step", "0.02 s")),
+        (record, "Motion/Damping=0.02", "Motion/Target spectrum=other.csv", ("other.csv", "cannot be opened")),
+        ("Motion/Ensemble=record.csv; none.csv", ("none.csv", "cannot be opened"))))
+    refused(["motion", "scene.prm", "--output", "suite.csv", *settings("Motion/Ensemble=record.csv")], "suite.csv", "another")
+
+
 if __name__ == "__main__":
-    run_cases(base, lift, gaps, cohesive, choices, damping, explicit, intervals, own_steps, zones, plane_strain, spectrum)
+    run_cases(base, lift, gaps, cohesive, choices, damping, explicit, intervals, own_steps, zones, plane_strain, spectrum, suite)

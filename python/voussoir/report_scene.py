@@ -101,7 +101,8 @@ def source(run):
         return f"artificial, spectrum {target or entry(run, 'Motion/Spectrum')}, {seeds}"
     if kind == "file":
         files = [entry(run, f"Motion/{name}") for name in ("Sequence", "File", "File x", "File y", "File z", "Abutments")]
-        matched = ", matched to the spectrum " + entry(run, "Motion/Target spectrum") if entry(run, "Motion/Match") == "true" else ""
+        change = {"true": ", matched to the spectrum ", "scale": ", scaled to the spectrum "}.get(entry(run, "Motion/Match"))
+        matched = change + entry(run, "Motion/Target spectrum") if change else ""
         names = [re.sub(r"[^\s,;:]*/", "", text) for text in files if text]
         return f"recorded: {', '.join(names) or 'no file'}{matched}"
     return kind

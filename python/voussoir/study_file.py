@@ -218,7 +218,8 @@ def path_of(value, study):
 AS_IT_IS = {"Motion/Source": "file", "Motion/File x": "", "Motion/File y": "", "Motion/File z": "", "Motion/File step": 0, "Motion/Azimuths": "",
             "Motion/Unit": "m/s^2", "Motion/Duration": -1, "Motion/Factor": 1, "Motion/Scale x": 1, "Motion/Scale y": 1, "Motion/Scale z": 1,
             "Motion/Sequence": "", "Motion/Ensemble": "", "Motion/Ensemble factors": "", "Motion/Ensemble output": "",
-            "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false"}
+            "Motion/Rest": 0, "Motion/Target spectrum": "", "Motion/Baseline": "none", "Motion/Match": "false",
+            "Motion/Match band": ""}
 
 
 def is_file_entry(entry):
@@ -231,8 +232,9 @@ def with_paths(entry, text, directory):
     """The value of an entry with absolute paths of its files, and these paths. In Motion/Sequence and
     Ensemble, numbers and ranges are seeds; in Motion/Abutments, a bank and a height precede the files; in Loads/Force history each third part is a file."""
     if is_file_entry(entry) and text:
-        path = str((directory / text).resolve())
-        return path, [path]
+        file, colon, choice = text.rpartition(":") if entry == "Motion/Target spectrum" and not (directory / text).exists() else ("", "", "")
+        path = str((directory / (file or text)).resolve())
+        return path + colon + choice, [path]
     if entry == "Loads/Force history":
         parts = [part.strip() for part in text.split(";")]
         parts[2::3] = [str((directory / part).resolve()) for part in parts[2::3]]

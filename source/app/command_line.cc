@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <iostream>
 #include <new>
 #include <sstream>
@@ -204,6 +205,17 @@ namespace Voussoir
       {
         if (const auto members = scene.motion.members(); !members.empty())
         {
+          if (scene.motion.source == "file")
+          {
+            const std::filesystem::path output = arguments.value("--output");
+            const std::string           suite = (output.parent_path() / "suite.csv").string();
+            if (output.filename() == "suite.csv")
+              throw InputError(
+                  "--output suite.csv: the table of all motions has this name. Choose another one.");
+            scene.check_output(suite);
+            write_suite(members, scene.directory, suite);
+            std::cout << "Factors, misfits and measures of all motions: " << suite << '\n';
+          }
           scene.motion = members.front().motion;
           std::cout << "Motion/Ensemble has " << members.size() << " motions. This is the first one, "
                     << members.front().name << ".\n";

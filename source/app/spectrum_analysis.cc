@@ -210,10 +210,10 @@ namespace Voussoir
     {
       if (choice != "design")
       {
-        if (!std::filesystem::is_regular_file(choice))
-          throw InputError("--spectrum " + choice +
-                           ": this file cannot be read. Give --spectrum design, or the path of "
-                           "a table with the columns period [s] and acceleration [m/s^2].");
+        if (!std::filesystem::is_regular_file(file_and_choice(choice).first))
+          throw InputError(
+              "--spectrum " + choice +
+              ": this file cannot be read. Give --spectrum design, or a table of period [s] and acceleration.");
         const SpectrumTable table =
             read_spectrum(choice, "", scene.motion.vertical_ratio, {SpectrumTable::rigid_period, .1});
         if (const double peak = table.at(0, 0.); !table.states_unit && peak < 1.)
@@ -222,7 +222,7 @@ namespace Voussoir
               " m/s^2, because the file has no headings with a unit. If it is in g, add the headings \"period [s], "
               "acceleration [g]\".");
         const double last = table.periods.back();
-        return {choice, scene.damping.ratio,
+        return {choice + " (" + table.note + ")", table.damping > 0. ? table.damping : scene.damping.ratio,
                 [=](const double period)
                 {
                   if (period > last)
@@ -278,7 +278,7 @@ namespace Voussoir
     if (std::abs(spectrum.damping - damping) > 1e-6)
       warn(
           "the spectrum is for a damping ratio of " + number_text(spectrum.damping) +
-          " (Motion/Damping), but Damping/Ratio is " + number_text(damping) +
+          " (of its file, or Motion/Damping), but Damping/Ratio is " + number_text(damping) +
           ". The code has no correction, so the spectral accelerations are unchanged. Make both equal, or give "
           "the spectrum for this damping as a file.");
     for (unsigned int d = 0; d < 3; ++d)

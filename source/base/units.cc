@@ -58,6 +58,7 @@ namespace Voussoir
         {"gal", "acceleration", 1e-2},
         {"Gal", "acceleration", 1e-2},
         {"g", "acceleration", standard_gravity},
+        {"%g", "acceleration", .01 * standard_gravity},
         {"ft/s^2", "acceleration", foot},
         {"m/s", "velocity", 1.},
         {"km/s", "velocity", 1e3},

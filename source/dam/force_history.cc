@@ -21,7 +21,7 @@ namespace Voussoir
       if (!std::filesystem::is_regular_file(file, error))
         throw InputError(entry + "the file " + file +
                          " cannot be read. Its path is relative to the directory of the scene file.");
-      const NumberTable table = read_number_table(file);
+      const NumberTable table = read_number_table(read_record_text(file));
       for (std::size_t i = 0; i < table.rows.size(); ++i)
       {
         const std::vector<double> &row = table.rows[i];

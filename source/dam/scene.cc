@@ -490,8 +490,10 @@ namespace Voussoir
       for (const std::string &component : station.record.component_files)
         add("Motion/Abutments", component);
     }
-    if (motion.has_target())
-      add("Motion/Target spectrum", motion.target_file);
+    if (motion.has_target() && !motion.target_file.empty())
+      files.emplace_back(
+          "Motion/Target spectrum",
+          file_and_choice((std::filesystem::path(directory) / motion.target_file).string()).first);
     return files;
   }
 

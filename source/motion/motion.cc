@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/output_file.h>
 #include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_artificial.h>
 #include <voussoir/motion/motion_files.h>
+#include <voussoir/motion/motion_report.h>
 #include <voussoir/motion/record_processing.h>
+#include <voussoir/motion/response_spectrum.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iomanip>
 #include <sstream>
 
 namespace Voussoir
@@ -41,7 +45,7 @@ namespace Voussoir
       const bool            artificial = parameters.source == "artificial";
       double                factor = 1.; // read_motion() includes it, except for records to be matched
       std::array<double, 3> factors = parameters.scale;
-      if (artificial || parameters.match)
+      if (artificial || parameters.match != "false")
         factor = parameters.factor;
       for (double &f : factors)
         f *= factor;
@@ -50,7 +54,7 @@ namespace Voussoir
       else
       {
         MotionParameters as_read = parameters;
-        as_read.factor = parameters.match ? 1. : parameters.factor;
+        as_read.factor = parameters.match != "false" ? 1. : parameters.factor;
         motion = read_motion(as_read, scene_directory, begin);
         process_record(motion, parameters, factors, !is_alone);
       }
@@ -93,6 +97,7 @@ namespace Voussoir
         const GroundMotion next = make_part(part, scene_directory, is_alone);
         if (!motion.parts.empty()) // the first sample of the next part ends the rest
           append_rest(motion, std::lround(parameters.rest_length() / motion.dt) - 1);
+        motion.fit = next.fit;
         const double begin = motion.acceleration.size() * motion.dt;
         motion.parts.push_back({part.name_of_part(), begin, begin + next.duration()});
         motion.acceleration.insert(motion.acceleration.end(), next.acceleration.begin(),
@@ -202,11 +207,41 @@ namespace Voussoir
     }
     if (parameters.source == "file")
       check_azimuths(parameters, scene_directory);
-    MotionParameters with_target = parameters;
-    with_target.read_target(scene_directory);
+    MotionParameters  with_target = parameters;
+    const std::string note = with_target.read_target(scene_directory);
     motion = make_sequence(with_target, scene_directory);
     check_samples(motion);
+    if (!note.empty())
+      motion.notes.push_back(note);
     add_stations(with_target, scene_directory, motion);
     return motion;
+  }
+
+  void write_suite(const std::vector<EnsembleMember> &members, const std::string &scene_directory,
+                   const std::string &file)
+  {
+    OutputFile out(file);
+    out << std::setprecision(9) << "motion,name,factor,misfit_before,misfit_after";
+    for (const char c : {'x', 'y', 'z'})
+      for (const char *name : {"peak_acceleration", "peak_velocity", "peak_displacement", "arias_intensity",
+                               "significant_duration"})
+        out << ',' << name << '_' << c;
+    out << ",rotd50_0.2,rotd100_0.2,rotd50_1,rotd100_1\n";
+    for (std::size_t i = 0; i < members.size() && members[i].factor == members[0].factor; ++i)
+    {
+      const GroundMotion motion = make_motion(members[i].motion, scene_directory);
+      out << i + 1 << ',' << std::quoted(members[i].name, '"', '"') << ',' << motion.fit.factor;
+      for (const double misfit : {motion.fit.misfit_before, motion.fit.misfit_after})
+        out << ',' << (std::isnan(misfit) ? std::string() : number_text(100. * misfit));
+      for (const auto &c : report_motion(motion, members[i].motion).components)
+        out << ',' << c.peak_acceleration << ',' << c.peak_velocity << ',' << c.peak_displacement << ','
+            << c.arias_intensity << ',' << c.significant_duration;
+      for (const double period : {.2, 1.})
+        for (const double value : rotated_response(motion.component(0), motion.component(1), motion.dt,
+                                                   period, members[i].motion.damping))
+          out << ',' << value;
+      out << '\n';
+    }
+    out.check();
   }
 } // namespace Voussoir

@@ -69,10 +69,11 @@ namespace Voussoir
         {1., 60., true});
     prm.add_parameter(
         "Target spectrum", target_file,
-        "File with the columns period [s] and pseudo-acceleration for the damping ratio Damping, "
-        "or with one pseudo-acceleration for each of x, y, z. Unit as in Unit; period 0 or at "
-        "most 0.02 s first (peak acceleration), at least 3 s last. One column applies to x and "
-        "y, and multiplied by Vertical ratio to z. It replaces the design spectrum of artificial "
+        "File with the columns period [s] or frequency [Hz] and pseudo-acceleration for the damping ratio Damping, or with one "
+        "pseudo-acceleration for each of x, y, z; or a uniform hazard spectrum of OpenQuake, or a search in PEER's data base. Unit of "
+        "the headings, otherwise as in Unit; period 0 or at most 0.02 s first (peak acceleration), at least 3 s last. One column "
+        "applies to x and y, and multiplied by Vertical ratio to z. Of several spectra, the name of one follows, as in \"uhs.csv: "
+        "0.1\". It replaces the design spectrum of artificial "
         "motions, and is the target of Match.",
         Patterns::Anything());
   }
@@ -136,7 +137,7 @@ namespace Voussoir
         Patterns::Map(Patterns::Anything(), Patterns::Anything(), 0, Patterns::Map::max_int_value, ";"));
     prm.add_parameter(
         "Unit", unit,
-        "Unit of the acceleration in tables and in Target spectrum, such as g (9.80665 m/s^2), m/s^2, cm/s^2 or "
+        "Unit of the acceleration in tables, and in a Target spectrum without unit, such as g (9.80665 m/s^2), m/s^2, cm/s^2 or "
         "gal. Files of agencies have their own unit.",
         Patterns::Selection(unit_choices("acceleration")));
     prm.add_parameter("Baseline", baseline,
@@ -145,10 +146,16 @@ namespace Voussoir
                       "parabola. Both make velocity and displacement zero at the end. With Rest or Sequence "
                       "the first and the last sample become zero, too.",
                       Patterns::Selection("none|linear|quadratic"));
-    prm.add_parameter("Match", match,
-                      "Source = file: true: each component is changed in the time domain until its response "
-                      "spectrum agrees with Target spectrum from 0.04 s to 3 s. Factor and Scale then apply "
-                      "to the matched motion.");
+    prm.add_parameter(
+        "Match", match,
+        "Source = file: true: each component is changed in the time domain until its response spectrum agrees with Target spectrum from "
+        "0.04 s to 3 s. scale: each record is multiplied by one factor, for which the horizontal spectra in Match band have the mean "
+        "logarithm of the target. Factor and Scale then apply to the matched motion.",
+        Patterns::Selection("false|true|scale"));
+    prm.add_parameter(
+        "Match band", match_band,
+        "Match = scale: first and last period [s] of the comparison, as in 0.2, 2, which Target spectrum must cover. Empty: 0.04, 3.",
+        Patterns::Anything());
   }
 
   void MotionParameters::add_artificial_parameters(Entries &prm)
@@ -253,17 +260,24 @@ namespace Voussoir
     /** Checks "Match" and "Target spectrum". */
     void check_target(const MotionParameters &p)
     {
-      if (p.source == "file" && p.match && p.target_file.empty())
-        throw InputError("Motion/Match is true, but there is no Motion/Target spectrum: give a file with "
+      if (p.match == "scale" && (p.source == "artificial" || !p.abutments.empty()))
+        throw InputError(
+            "Motion/Match is scale: Motion/Source must be file (artificial motions match their spectrum), "
+            "without Motion/Abutments (each record would have its own factor). Set Match to false.");
+      p.band();
+      if (p.source == "file" && p.match != "false" && p.target_file.empty())
+        throw InputError("Motion/Match is " + p.match +
+                         ", but there is no Motion/Target spectrum: give a file with "
                          "period and pseudo-acceleration, or set Match to false.");
       if (!p.has_target())
         return;
       require_between(1e-4, 0.99, "Damping", p.damping, "");
       require_between(1e-6, 100., "Vertical ratio", p.vertical_ratio,
                       "; to switch the component off, set Scale z to 0");
-      if (p.source == "artificial" || p.match)
+      if (p.source == "artificial" || p.match != "false")
         require(p.time_step <= 0.02, "Time step", p.time_step,
-                p.match ? "matched records need 0.02 s or less" : "artificial motions need 0.02 s or less");
+                p.source == "file" ? "matched records need 0.02 s or less"
+                                   : "artificial motions need 0.02 s or less");
     }
 
     void check_files(const MotionParameters &p)
@@ -539,6 +553,17 @@ namespace Voussoir
     return result;
   }
 
+  std::array<double, 2> MotionParameters::band() const
+  {
+    if (match_band.empty() || match != "scale")
+      return {{MotionCriteria::first_period, MotionCriteria::last_period}};
+    const std::vector<double> periods = numbers_of(match_band, "Match band", .01, 100.);
+    if (periods.size() != 2 || periods[0] > periods[1])
+      throw InputError("Motion/Match band is " + match_band +
+                       ". Give two periods in s, the shorter one first, as in 0.2, 2.");
+    return {{periods[0], periods[1]}};
+  }
+
   std::vector<StationParameters> MotionParameters::stations() const
   {
     std::vector<StationParameters> result;
@@ -576,11 +601,20 @@ namespace Voussoir
     return "'" + name + "'";
   }
 
-  void MotionParameters::read_target(const std::string &scene_directory)
+  std::string MotionParameters::read_target(const std::string &scene_directory)
   {
-    if (has_target() && !target_file.empty())
-      target_spectrum = read_spectrum((std::filesystem::path(scene_directory) / target_file).string(), unit,
-                                      vertical_ratio, {.02, MotionCriteria::last_period});
+    if (!has_target() || target_file.empty())
+      return "";
+    target_spectrum =
+        read_spectrum((std::filesystem::path(scene_directory) / target_file).string(), unit, vertical_ratio,
+                      match == "scale" && source == "file"
+                          ? PeriodRange{band()[0], band()[1], ", or change Motion/Match band"}
+                          : PeriodRange{.02, MotionCriteria::last_period});
+    if (const double of_file = target_spectrum.damping; of_file > 0. && std::abs(of_file - damping) > 1e-6)
+      throw InputError("The spectrum '" + target_file + "' is for a damping ratio of " +
+                       number_text(of_file) + ", but Motion/Damping is " + number_text(damping) +
+                       ". Set Motion/Damping = " + number_text(of_file) + ", or give another spectrum.");
+    return "target spectrum '" + target_file + "': " + target_spectrum.note;
   }
 
   void MotionParameters::add_choices(ModelChoices &choices) const

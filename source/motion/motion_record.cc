@@ -20,7 +20,7 @@ namespace Voussoir
     {
       const std::string text = lower_case(headings);
       const auto        is_part = [](const unsigned char c)
-      { return std::isalnum(c) || c == '/' || c == '^' || c >= 0x80; };
+      { return std::isalnum(c) || c == '/' || c == '^' || c == '%' || c >= 0x80; };
       std::set<std::string> found;
       for (std::size_t begin = 0, end; begin < text.size(); begin = end)
       {
@@ -112,19 +112,11 @@ namespace Voussoir
       return step;
     }
 
-    /** Heading of a column. Quantity: t, a, v (velocity), d (displacement), or ? (unknown). Unknown unit: "(mg)". */
-    struct Column
-    {
-      std::string   text, unit;
-      char          quantity = '?';
-      MotionChannel channel;
-    };
-
     /** Returns the meaning of a heading such as "a_x [cm/s2]", "Acc. N-S (g)", EW or "Time (s)". */
-    Column column_of(const std::string &heading)
+    Heading column_of(const std::string &heading)
     {
       const std::string keys = "acceleration accel acc a velocity vel v displacement disp d u time t ";
-      Column            column{trimmed(heading), "", '?', {}};
+      Heading           column{trimmed(heading), "", '?', {}};
       const std::string text = lower_case(column.text) + " ";
       std::string       name;
       for (std::size_t begin = 0, end; begin < text.size(); begin = end + 1)
@@ -137,10 +129,12 @@ namespace Voussoir
         direction.set_direction(part);
         const bool in_parentheses = text[end] == ')' || text[end] == ']';
         if (slash < part.size() ? direction.axis == '?' : in_parentheses || part == "gal")
-          for (const char *dimension : {"acceleration", "velocity", "length", "time"})
+          for (const char *dimension : {"acceleration", "velocity", "length", "time", "frequency"})
             for (const std::size_t first : {std::size_t(0), slash + 1}) // cm/s2, ax/gal
               if (n_name == part.size() && first <= slash + (slash < part.size()))
-                if (const std::string unit = unit_name(part.substr(first), dimension); !unit.empty())
+                if (const std::string of_part = part.substr(first),
+                    unit = unit_name(of_part == "hz" ? "Hz" : of_part, dimension);
+                    !unit.empty())
                   n_name = first, column.unit = unit,
                   column.quantity = dimension[0] == 'l' ? 'd' : dimension[0];
         if (in_parentheses && !part.empty() && n_name == part.size() && direction.axis == '?' &&
@@ -174,12 +168,12 @@ namespace Voussoir
     }
 
     /** Returns the headings of the columns, separated by semicolons, tabs, commas or blanks. */
-    std::vector<Column> columns_of(const std::string &line)
+    std::vector<Heading> columns_of(const std::string &line)
     {
-      const std::size_t   at = std::min(line.find_first_of(";\t"), line.find(','));
-      const char          separator = line.find(';') < line.size() ? ';' : at < line.size() ? line[at] : ' ';
-      std::vector<Column> columns;
-      std::istringstream  cells(line);
+      const std::size_t    at = std::min(line.find_first_of(";\t"), line.find(','));
+      const char           separator = line.find(';') < line.size() ? ';' : at < line.size() ? line[at] : ' ';
+      std::vector<Heading> columns;
+      std::istringstream   cells(line);
       for (std::string cell; std::getline(cells, cell, separator);)
         if (separator == ' ' && !columns.empty() && !cell.empty() && (cell[0] == '(' || cell[0] == '['))
           columns.back() = column_of(columns.back().text + " " + cell);
@@ -188,8 +182,8 @@ namespace Voussoir
       while (!columns.empty() && columns.back().text.empty())
         columns.pop_back();
       const bool is_north_known =
-          std::any_of(columns.begin(), columns.end(), [](const Column &c) { return c.channel.axis == 'h'; });
-      for (Column &column : columns)
+          std::any_of(columns.begin(), columns.end(), [](const Heading &c) { return c.channel.axis == 'h'; });
+      for (Heading &column : columns)
         if (const std::string cell = lower_case(column.text) + " ";
             is_north_known && cell[0] == 'u' && cell.find_first_of(" ([") == 1) // E, N, U
           column = column_of("up" + column.text.substr(1));
@@ -197,13 +191,13 @@ namespace Voussoir
     }
 
     /** Throws InputError unless the columns are accelerations of one unit, and one time if @p is_timed. */
-    void check_columns(const RecordText &text, const std::size_t line, const std::vector<Column> &columns,
+    void check_columns(const RecordText &text, const std::size_t line, const std::vector<Heading> &columns,
                        const bool is_timed)
     {
       unsigned int                      n_times = 0;
       std::string                       unit;
       std::set<std::pair<char, double>> directions;
-      for (const Column &column : columns)
+      for (const Heading &column : columns)
       {
         const std::string name = "the column '" + column.text + "' ";
         if (column.unit.find_first_of("([") == 0)
@@ -211,7 +205,7 @@ namespace Voussoir
         if (column.quantity == 'v' || column.quantity == 'd')
           text.fail(line, name + "is a " + (column.quantity == 'v' ? "velocity" : "displacement") +
                               ", not an acceleration. Give accelerations, or remove the column.");
-        if (column.quantity == '?')
+        if (column.quantity == '?' || column.quantity == 'f')
           text.fail(line,
                     name + "is unknown. Use headings such as t, a_x, a_y, a_z, or Time (s), Acc. NS (g).");
         if (column.quantity == 't' && (++n_times > 1 || (!column.unit.empty() && column.unit != "s")))
@@ -264,18 +258,18 @@ namespace Voussoir
 
     /** Returns the columns that the first line names, and removes it from @p lines. Without headings, or if no
      * word is known, there are none. Throws InputError if their number differs from that of the numbers. */
-    std::vector<Column> take_headings(const RecordText &text, std::vector<Line> &lines, std::string &notes)
+    std::vector<Heading> take_headings(const RecordText &text, std::vector<Line> &lines, std::string &notes)
     {
       if (!has_headings(lines))
         return {};
-      const std::size_t         first = lines[0].number;
-      const std::vector<Column> columns =
+      const std::size_t          first = lines[0].number;
+      const std::vector<Heading> columns =
           columns_of(text.lines[first].substr(0, text.lines[first].find('#')));
       lines.erase(lines.begin());
       if (lines.empty() || lines[0].words.size() == columns.size() ||
           has_headings(lines)) // reported by rows_of()
         return columns;
-      if (std::any_of(columns.begin(), columns.end(), [](const Column &c) { return c.quantity != '?'; }))
+      if (std::any_of(columns.begin(), columns.end(), [](const Heading &c) { return c.quantity != '?'; }))
         text.fail(first, std::to_string(columns.size()) + " headings, " +
                              std::to_string(lines[0].words.size()) +
                              " columns. Give each column one heading, and put # before other text.");
@@ -290,9 +284,9 @@ namespace Voussoir
       std::vector<Line> lines = lines_of(text, headings);
       const std::size_t first = lines.empty() ? 0 : lines[0].number;
       record.notes = "table";
-      const std::vector<Column> columns = take_headings(text, lines, record.notes);
-      const bool                is_time_named = std::any_of(columns.begin(), columns.end(),
-                                                            [](const Column &c) { return c.quantity == 't'; }),
+      const std::vector<Heading> columns = take_headings(text, lines, record.notes);
+      const bool                 is_time_named = std::any_of(columns.begin(), columns.end(),
+                                                             [](const Heading &c) { return c.quantity == 't'; }),
                  is_timed = !(step > 0. && (columns.empty() ? !lines.empty() && lines[0].words.size() == 1
                                                             : !is_time_named));
       const auto rows = rows_of(text, lines, n_channels == 0 ? 0 : n_channels + is_timed, n_channels);
@@ -367,18 +361,23 @@ namespace Voussoir
     return record;
   }
 
-  NumberTable read_number_table(const std::string &file)
+  NumberTable read_number_table(const RecordText &text)
   {
-    NumberTable             table;
-    std::string             headings;
-    const RecordText        text = read_record_text(file);
-    const std::vector<Line> lines = lines_of(text, headings);
-    for (auto line = lines.begin() + has_headings(lines); line != lines.end(); ++line)
+    NumberTable       table;
+    std::string       headings;
+    std::vector<Line> lines = lines_of(text, headings);
+    if (has_headings(lines))
     {
-      table.lines.push_back(line->number + 1);
+      const std::string &first = text.lines[lines[0].number];
+      table.headings = columns_of(first.substr(0, first.find('#')));
+      lines.erase(lines.begin());
+    }
+    for (const Line &line : lines)
+    {
+      table.lines.push_back(line.number + 1);
       table.rows.emplace_back();
-      for (const std::string &word : line->words)
-        table.rows.back().push_back(number_of(text, *line, word, false));
+      for (const std::string &word : line.words)
+        table.rows.back().push_back(number_of(text, line, word, false));
     }
     table.unit = unit_in(headings);
     return table;

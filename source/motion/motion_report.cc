@@ -87,7 +87,7 @@ namespace Voussoir
     std::array<std::vector<double>, 3> accelerations;
     const MotionIntegrals              integrals = motion.integrated();
     report.artificial = parameters.source == "artificial";
-    report.matched = parameters.source == "file" && parameters.match;
+    report.matched = parameters.source == "file" && parameters.match == "true";
     report.has_target = parameters.has_target();
     for (unsigned int d = 0; d < 3; ++d)
     {
@@ -99,7 +99,7 @@ namespace Voussoir
 
       SpectralTarget target;
       target.damping = parameters.damping;
-      target.periods = logarithmic_periods(MotionCriteria::first_period, MotionCriteria::last_period, 200);
+      target.periods = logarithmic_periods(parameters.band()[0], parameters.band()[1], 200);
       for (const double period : target.periods)
         target.pseudo_acceleration.push_back(factor * parameters.target(d, period));
       const SpectralError error = largest_error(motion, accelerations[d], target);

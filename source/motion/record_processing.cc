@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/motion/motion_artificial.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/motion/record_processing.h>
@@ -225,6 +226,31 @@ namespace Voussoir
     }
   } // namespace
 
+  namespace
+  {
+    /** Returns mean and root of the mean square of ln(target / spectrum) over the horizontal components that move,
+     * otherwise of z, and over MotionParameters::band(). Both are 0 without motion. */
+    std::array<double, 2> log_misfit(const GroundMotion &motion, const MotionParameters &parameters,
+                                     const std::array<double, 3> &factors)
+    {
+      const auto   band = parameters.band();
+      const Vector periods = logarithmic_periods(band[0], band[1], 100);
+      double       sum = 0., squares = 0.;
+      std::size_t  n = 0;
+      for (unsigned int d = 0; d < (n == 0 ? 3 : 2); ++d)
+        if (const Vector a = motion.component(d); !is_zero(a) && factors[d] != 0.)
+        {
+          const Vector spectrum = pseudo_acceleration_spectrum(a, motion.dt, periods, parameters.damping);
+          for (std::size_t k = 0; k < periods.size(); ++k, ++n)
+          {
+            const double misfit = std::log(parameters.target(d, periods[k]) / spectrum[k]);
+            sum += misfit, squares += misfit * misfit;
+          }
+        }
+      return {{sum / std::max<std::size_t>(n, 1), std::sqrt(squares / std::max<std::size_t>(n, 1))}};
+    }
+  } // namespace
+
   void process_record(GroundMotion &motion, const MotionParameters &parameters,
                       const std::array<double, 3> &factors, const bool has_zero_ends)
   {
@@ -232,8 +258,15 @@ namespace Voussoir
       throw InputError(
           "The record of the ground motion has " + std::to_string(motion.acceleration.size()) +
           " samples, too few for Motion/Baseline. Set Baseline to none, or give a longer record.");
-    if (parameters.match)
+    if (parameters.match == "true")
       check_length(motion.acceleration.size() - 1, motion.dt);
+    const auto begin = [&] // of a change to the target
+    {
+      const auto [mean, misfit] = log_misfit(motion, parameters, factors);
+      motion.fit = {std::exp(mean), misfit, misfit};
+    };
+    if (parameters.match == "true")
+      begin();
     for (unsigned int d = 0; d < 3; ++d)
     {
       Vector a = motion.component(d);
@@ -241,10 +274,23 @@ namespace Voussoir
         continue;
       if (parameters.baseline != "none")
         a = corrected(a, motion, parameters, d, factors[d], has_zero_ends);
-      if (parameters.match)
+      if (parameters.match == "true")
         a = matched(a, motion, parameters, d, factors[d]);
       for (std::size_t k = 0; k < a.size(); ++k)
         motion.acceleration[k][d] = a[k];
     }
+    if (parameters.match == "false")
+      return;
+    if (parameters.match == "scale")
+    {
+      begin();
+      motion = motion.scaled(motion.fit.factor);
+    }
+    motion.fit.misfit_after = log_misfit(motion, parameters, factors)[1];
+    if (parameters.match == "scale")
+      motion.notes.push_back("multiplied by " + number_text(motion.fit.factor) + ", scaled to '" +
+                             parameters.target_file + "' from " + number_text(parameters.band()[0]) +
+                             " s to " + number_text(parameters.band()[1]) + " s; misfit of the spectrum " +
+                             percent(motion.fit.misfit_before) + ", now " + percent(motion.fit.misfit_after));
   }
 } // namespace Voussoir

@@ -18,6 +18,7 @@ DAMS = {"Arch210": (0., 210.), "Arcs": (1000., 120.), "file": (500., 210.)}  # b
 # Entries that a level requires.
 NEEDS = {("Motion/Source", "file"): {"Motion/File": "motion.txt", "Motion/Unit": "g"},
          ("Motion/Match", "true"): {"Motion/Target spectrum": "target.txt", "Motion/Duration": "1"},
+         ("Motion/Match", "scale"): {"Motion/Target spectrum": "target.txt"},
          ("Reservoir/Model", "acoustic"): {"Reservoir/Element size": "{.15m}", "Output/Pressure depths": "5, 20"},
          ("Reservoir/Model", "incompressible"): {"Reservoir/Element size": "{.15m}"},
          ("Reservoir/Model", "added mass table"): {"Reservoir/Table": "mass.csv"},

@@ -3,6 +3,7 @@
 #define voussoir_ground_motion_h
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -23,6 +24,14 @@ namespace Voussoir
     double      begin, end; ///< times of its first and last sample [s]. The rest follows.
   };
 
+  /** Record before and after "Motion/Match". The misfit is the root of the mean square of ln(spectrum / target) over
+   * the horizontal components and MotionParameters::band(), at equal ratios of the periods. */
+  struct TargetFit
+  {
+    double factor = 1.; ///< of "scale", see process_record() [-]
+    double misfit_before = std::nan(""), misfit_after = std::nan(""); ///< [-]; NaN without "Match"
+  };
+
   /** Record at one bank of the valley, of the same length as the ground motion. */
   struct MotionStation
   {
@@ -39,6 +48,7 @@ namespace Voussoir
     std::vector<std::array<double, 3>> acceleration; ///< a_x, a_y, a_z [m/s^2] at t = k dt
     std::vector<std::string>           notes; ///< processing of records (duration, filter), for the log
     std::vector<MotionPart>            parts; ///< one after another; make_motion() sets them
+    TargetFit                          fit;   ///< of the last part
     std::vector<MotionStation> stations; ///< other motions at the banks, "Motion/Abutments"; empty: the same
 
     /** Returns the time of the last sample [s]. */

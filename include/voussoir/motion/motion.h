@@ -19,6 +19,12 @@ namespace Voussoir
    *
    * Throws InputError if a record or an entry is wrong, and if a sample is not finite or exceeds 1000 g. */
   GroundMotion make_motion(const MotionParameters &parameters, const std::string &scene_directory);
+
+  /** Writes a table with one row for each motion of an ensemble, with its first factor: TargetFit, the measures of
+   * MotionReport, and rotated_response() at 0.2 s and 1 s, in SI units. Throws InputError as make_motion(), and
+   * WriteError. @param file path of suite.csv */
+  void write_suite(const std::vector<EnsembleMember> &members, const std::string &scene_directory,
+                   const std::string &file);
 } // namespace Voussoir
 
 #endif

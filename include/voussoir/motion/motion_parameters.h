@@ -54,7 +54,8 @@ namespace Voussoir
      * read_motion(). */
     std::map<std::string, double> azimuths;
     std::string                   baseline = "none"; ///< or "linear", "quadratic": without_baseline()
-    bool                          match = false;     ///< matched_record() to the target spectrum
+    std::string                   match = "false"; ///< or "true": matched_record(); "scale": process_record()
+    std::string                   match_band;      ///< periods of "scale" [s]; empty: see band()
 
     /** Files of records at the banks by "right HEIGHT" or "left HEIGHT"; see stations(). */
     std::map<std::string, std::string> abutments;
@@ -112,9 +113,13 @@ namespace Voussoir
     /** Returns the name of a part for messages: its files, or its seed. */
     std::string name_of_part() const;
 
-    /** Reads "Target spectrum" if it is given. Throws InputError, see read_spectrum(). Required before
-     * target(). */
-    void read_target(const std::string &scene_directory);
+    /** Returns the periods from which to which spectra are compared with the target [s]: "Match band", otherwise
+     * first_period and last_period. Throws InputError if the entry is wrong. */
+    std::array<double, 2> band() const;
+
+    /** Reads "Target spectrum" if it is given. Returns a note for the log. Throws InputError, see read_spectrum(), and
+     * for another damping ratio than "Damping". Required before target(). */
+    std::string read_target(const std::string &scene_directory);
 
     /** Returns true if "Target spectrum" was read, and its headings state no unit. */
     bool target_lacks_unit() const

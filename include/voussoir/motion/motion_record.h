@@ -24,18 +24,28 @@ namespace Voussoir
    *  - A column or the record is not an acceleration, or has decimal commas. */
   MotionRecord read_motion_record(const std::string &file, unsigned int n_channels, double step = 0.);
 
+  /** Heading of a column such as "a_x [cm/s2]", "Acc. N-S (g)", EW or "Period (s)". */
+  struct Heading
+  {
+    std::string   text;
+    std::string   unit; ///< unit_name(), or an unknown unit with its parentheses, as in "(mg)", or empty
+    char          quantity = '?'; ///< t, a, v (velocity), d (displacement), f (frequency), or ? (unknown)
+    MotionChannel channel;        ///< name and direction
+  };
+
   /** Numbers of a text file with equal separators, comments and headings as the tables of
    * read_motion_record(). */
   struct NumberTable
   {
-    std::vector<std::vector<double>> rows;  ///< at least one number each
-    std::vector<std::size_t>         lines; ///< number of the line of each row
-    std::string                      unit;  ///< unit_name() in the headings, or empty
+    std::vector<Heading>             headings; ///< of the first line, or empty
+    std::vector<std::vector<double>> rows;     ///< at least one number each
+    std::vector<std::size_t>         lines;    ///< number of the line of each row
+    std::string                      unit;     ///< unit_name() in the headings, or empty
   };
 
-  /** Reads a table with any number of columns. Throws InputError with file and line if the file is not a
-   * regular text file of at most 100 MB, or a value is not a finite number. */
-  NumberTable read_number_table(const std::string &file);
+  /** Reads a table with any number of columns. Throws InputError with file and line if a value is not a finite
+   * number. */
+  NumberTable read_number_table(const RecordText &text);
 } // namespace Voussoir
 
 #endif

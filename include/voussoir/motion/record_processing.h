@@ -40,8 +40,12 @@ namespace Voussoir
   std::vector<double> matched_record(const std::vector<double> &a, double dt, const SpectralTarget &target,
                                      double least_envelope, unsigned int n_passes);
 
-  /** Corrects the components of a record as "Motion/Baseline" and "Motion/Match" require. Adds notes with the
-   * values before and after. Components that are zero stay zero. If the error of a matched component exceeds
+  /** Corrects the components of a record as "Motion/Baseline" and "Motion/Match" require. "scale" multiplies all
+   * components by the same factor f, which makes the misfit (TargetFit) smallest:
+   *
+   *      ln f = mean of ln(target_c(T) / S_c(T)) over c = x, y and the periods T of MotionParameters::band()
+   *
+   * with z instead if x and y are zero. Adds notes with the values before and after. Components that are zero stay zero. If the error of a matched component exceeds
    * MotionCriteria::maximum_error, it is matched again with other smallest values of the envelope, at most four
    * times in all, and the best result is used.
    * @param motion record [m/s^2]
