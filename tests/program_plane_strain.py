@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Plane strain (Mesh/Plane strain): own plane elements, CalculiX, closed forms, joints, refusals.
+"""Plane strain (Mesh/Plane strain): own plane elements, CalculiX, closed forms, joints, water, refusals.
 
     program_plane_strain.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
@@ -17,6 +17,7 @@ import meshes  # noqa: E402
 import plane_elements  # noqa: E402
 from compare import STRESS, read_vtu, scene  # noqa: E402
 from program_sustained import agree  # noqa: E402
+from program_water import ACOUSTIC, RHO, C, H, base_force, bed_pressure  # noqa: E402
 from run_program import expect, run_cases, runs, same, settings, table, write_scene  # noqa: E402
 from voussoir.zone_tension import zone_means  # noqa: E402
 
@@ -139,5 +140,58 @@ def massless():
     same("of_1", "of_3", 1e-9, ("history",))
 
 
+def wet_force(t, a, alpha, n=24, shift=8.):
+    """Downstream force per width [N/m] on a rigid vertical wall of the depth H under the acceleration a, infinite channel, absorbing bed: modes of linear
+    elements over the depth for each frequency (Fenves and Chopra 1984), on the line Re s = shift / length of the record."""
+    dz, dt, steps = H / n, t[1] - t[0], 2 * len(t)
+    q = (1 - alpha) / (1 + alpha) / C
+    K, M = (np.diag([d] + [2 * d] * (n - 1)) + np.diag([e] * (n - 1), 1) + np.diag([e] * (n - 1), -1) for d, e in ((1 / dz, -1 / dz), (dz / 3, dz / 6)))
+    load, inverse = M @ np.ones(n) + np.eye(n)[-1] * dz / 6, np.linalg.inv(M)
+    damping = shift / (steps * dt)
+    spectrum = np.fft.rfft(np.exp(-damping * t) * a, steps)
+    result = np.zeros(len(spectrum), complex)
+    for k, omega in enumerate(2 * np.pi * np.fft.rfftfreq(steps, dt)):
+        s = damping + 1j * omega
+        if omega > 2 * np.pi * 100:
+            break
+        A = K.astype(complex)
+        A[0, 0] += s * q
+        squares, modes = np.linalg.eig(inverse @ A)
+        modes = modes / np.sqrt(np.einsum("ij,ik,kj->j", modes, M, modes))
+        result[k] = RHO * np.sum((load @ modes)**2 / np.sqrt(squares + s * s / C**2)) * spectrum[k]
+    return np.fft.irfft(result, steps)[:len(t)] * np.exp(damping * t)
+
+
+def water():
+    """A stiff wall 1 m wide: force of the water by pulses along x, exact modes with an absorbing bed, and pressure at the bed by a pulse along z.
+    The sides of the slice neither absorb nor move the water. Two thicknesses give the same."""
+    dt = .001
+    t = np.arange(0, 1 + dt / 2, dt)
+    common = settings("Motion/Source=file", "Motion/File=pulse.txt", "Motion/Unit=m/s^2", f"Motion/Time step={dt}", "Motion/Duration=1", "Reservoir/Water level=60",
+                      f"Reservoir/Density={RHO}", f"Reservoir/Sound speed={C}", "Reservoir/Element size=2.5", "Reservoir/Length=900",
+                      "Output/Pressure depths=60", "Output/Block forces=true", "Dynamics/Factors=double")
+    pulse = lambda period: np.where(t < period, np.sin(2 * np.pi * t / period), 0)
+    for width in (1., 5.):
+        meshes.wall(f"wall{width:g}.msh", width=width, n_up=24)
+    for width, period, alpha, limit in ((1., .4, 1., .01), (1., .4, .5, .01), (1., .1, .5, .01), (5., .1, .5, .01)):
+        file = scene("stiff", f"wall{width:g}.msh", Mesh={"Plane strain": "true"}, Concrete={"Young's modulus": 2e17, "Density": 2500})
+        a, name = pulse(period), f"of{width:g}"
+        np.savetxt("pulse.txt", np.column_stack([t, a, 0 * t, 0 * t]))
+        runs(file, "--output", "dry", "--overwrite", *common, *settings("Reservoir/Model=none"))
+        runs(file, "--output", name, "--overwrite", *common, *ACOUSTIC, *settings(f"Reservoir/Reflection={alpha}"))
+        found, exact = (base_force(name) - base_force("dry")) / width, wet_force(t, a, alpha)
+        error = np.abs(found[1:] - .5 * (exact[1:] + exact[:-1])).max() / np.abs(exact).max()
+        print(f"    width {width} m, pulse of {period} s, reflection {alpha}: largest error {100 * error:.2f} % (limit {100 * limit} %)")
+        expect(error < limit, f"error {error}")
+    v = .1 / 2 / np.pi * np.where(t < .1, 1 - np.cos(2 * np.pi * t / .1), 0)
+    np.savetxt("pulse.txt", np.column_stack([t, 0 * t, 0 * t, pulse(.1)]))
+    runs(file, "--output", "rising", *common, *ACOUSTIC, *settings("Reservoir/Reflection=0.5"))
+    header, rows = table("rising/history.csv")
+    found, exact = [row[header.index("pressure_60")] for row in rows], bed_pressure(v, dt, .5, 1e30)
+    error = np.abs(found - exact).max() / np.abs(exact).max()
+    print(f"    bed: {100 * error:.2f} % (limit 2 %)")
+    expect(error < .02, f"bed: {error}")
+
+
 if __name__ == "__main__":
-    run_cases(modes, column, joint, massless)
+    run_cases(modes, column, joint, massless, water)

@@ -212,7 +212,6 @@ def plane_strain():
     refuse([*run, *PLANE, *settings("Reservoir/Density=1000")], (
         ("Mesh/File=held.msh", "Foundation/Model=massless", "Reservoir/Density=0", ("artificial boundary", "planes of symmetry", "(-2.5, -5, -7.5)")),
         ("Mesh/File=koyna.msh", "Foundation/Model=massless", "Reservoir/Water level=95", "Reservoir/Model=acoustic", ("Reservoir/Model", "rigid base")),
-        ("Mesh/File=koyna.msh", "Reservoir/Water level=95", "Reservoir/Model=acoustic", "Reservoir/Reflection=0.8", ("Reservoir/Reflection", "to 1")),
         ("Mesh/File=across.msh", "Reservoir/Water level=35", ("(5, 5, 10) m", "without joints across y"))))
 
 

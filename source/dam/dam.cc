@@ -77,17 +77,11 @@ namespace Voussoir
       if (scene.foundation.model == "rock")
         throw InputError("\"Mesh/Plane strain\" is true, but \"Foundation/Model\" is rock. Set "
                          "\"Foundation/Model\" to rigid or massless, or \"Mesh/Plane strain\" to false.");
-      const bool is_acoustic = scene.reservoir.is_meshed() && scene.reservoir.model == "acoustic";
-      if (is_acoustic && scene.foundation.model != "rigid")
+      if (scene.reservoir.is_meshed() && scene.reservoir.model == "acoustic" &&
+          scene.foundation.model != "rigid")
         throw InputError(
             "\"Mesh/Plane strain\" is true, and \"Reservoir/Model\" is acoustic: this requires a "
             "rigid base. Set \"Foundation/Model\" to rigid, or \"Reservoir/Model\" to Westergaard.");
-      if (is_acoustic && scene.reservoir.reflection < 1.)
-        throw InputError(
-            "\"Mesh/Plane strain\" is true, but \"Reservoir/Reflection\" is " +
-            number_text(scene.reservoir.reflection) +
-            ": the sides of the channel would absorb waves as the bed does. Set \"Reservoir/Reflection\" "
-            "to 1, or \"Reservoir/Model\" to Westergaard.");
       check_plane_section(opened, scene.mesh.name());
       check_plane_section(mesh, scene.mesh.name());
     }
@@ -377,10 +371,11 @@ namespace Voussoir
     }
     if (const ReservoirParameters &r = scene.reservoir; r.is_meshed() && scene.loads.factor("water") != 0.)
     {
-      water = std::make_unique<AcousticWater>(
-          *model, structure, *foundation,
-          WaterProperties{r.density, r.sound_speed, r.reflection, 0., r.length, r.element_size}, r.level,
-          water_volumes.get());
+      water =
+          std::make_unique<AcousticWater>(*model, structure, *foundation,
+                                          WaterProperties{r.density, r.sound_speed, r.reflection, 0.,
+                                                          r.length, r.element_size, scene.mesh.plane_strain},
+                                          r.level, water_volumes.get());
       water->gravity = scene.statics.gravity * scene.loads.factor("water");
       neighbours.push_back(water.get());
       if (water_volumes != nullptr && r.element_size > 0.)

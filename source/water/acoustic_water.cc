@@ -36,6 +36,11 @@ namespace Voussoir
       return std::round(h / unit) * unit;
     }
 
+    WaterMesh channel(const SolidModel &dam, const double level, const WaterProperties &properties)
+    {
+      return make_channel(WaterSection(wet_quads(dam), level, properties.h, properties.is_slice), properties);
+    }
+
     /** Throws InputError for water elements that are too large, with a size that works, if there is one. */
     [[noreturn]] void advise(const CoarseWater &error, const SolidModel &dam, const double level,
                              WaterProperties properties)
@@ -45,8 +50,7 @@ namespace Voussoir
         try
         {
           properties.h = rounded(.9 * properties.h);
-          WaterCoupling(dam, make_channel(WaterSection(wet_quads(dam), level, properties.h), properties),
-                        level, properties.h);
+          WaterCoupling(dam, channel(dam, level, properties), level, properties.h);
           throw InputError(error.what() +
                            (" Set \"Reservoir/Element size\" to " + number_text(properties.h)) + ".");
         }
@@ -66,7 +70,7 @@ namespace Voussoir
         return read_volumes(*volumes, wet_quads(dam), level, properties);
       try
       {
-        WaterMesh mesh = make_channel(WaterSection(wet_quads(dam), level, properties.h), properties);
+        WaterMesh mesh = channel(dam, level, properties);
         WaterCoupling(dam, mesh, level, properties.h); // throws CoarseWater
         return mesh;
       }
@@ -159,7 +163,7 @@ namespace Voussoir
       try
       {
         larger.h = rounded(larger.h);
-        const WaterMesh mesh = make_channel(WaterSection(wet_quads(dam), level, larger.h), larger);
+        const WaterMesh mesh = channel(dam, level, larger);
         if (WaterModel(mesh, larger, dt).mass_factor <= largest_mass_factor &&
             !WaterCoupling(dam, mesh, level, larger.h).shares.empty())
           return ", or \"Reservoir/Element size\" to " + number_text(larger.h);

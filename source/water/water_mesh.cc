@@ -97,6 +97,7 @@ namespace Voussoir
     const Vector3                   normal = end_normal();
     WaterMesh                       result;
     result.places = places;
+    result.is_slice = is_slice;
     for (const double along : {0., last_length})
       for (const unsigned int node : nodes)
       {
@@ -120,7 +121,8 @@ namespace Voussoir
           edges[{a, b}] = 1;
     }
     for (const auto &[edge, unused] : edges)
-      if (const auto [a, b] = edge; !result.at_surface[a] || !result.at_surface[b])
+      if (const auto [a, b] = edge; (!result.at_surface[a] || !result.at_surface[b]) &&
+                                    !(is_slice && result.points[a][1] == result.points[b][1]))
         result.bed.push_back({a, b, n + b, n + a});
     return result;
   }
@@ -132,6 +134,7 @@ namespace Voussoir
     double                    length;
     WaterMesh                 mesh;
     const std::vector<double> layers = layers_of(properties, undamped, length, mesh.last_length);
+    mesh.is_slice = properties.is_slice;
     mesh.monolith = section.monolith;
     const double end = *std::min_element(section.face_x.begin(), section.face_x.end()) - length;
     const auto   node = [&](const std::size_t k, const unsigned int j)

@@ -62,6 +62,31 @@ namespace Voussoir
       return cell;
     }
 
+    /** Restricts the matrices of a cell to motions in the plane x, z, as make_plane() in the rock. */
+    void make_plane(const std::array<Vector3, 8> &x, Cell &cell)
+    {
+      const Cell full = cell;
+      for (unsigned int i = 0; i < 8; ++i)
+      {
+        const auto across = [&](const unsigned int j)
+        {
+          const auto distance = [&](const unsigned int k)
+          { return k == j ? 1e300 : std::hypot(x[k][0] - x[j][0], x[k][2] - x[j][2]); };
+          unsigned int nearest = 0;
+          for (unsigned int k = 1; k < 8; ++k)
+            nearest = distance(k) < distance(nearest) ? k : nearest;
+          return nearest;
+        };
+        const unsigned int p = across(i);
+        for (unsigned int j = 0; j < 8; ++j)
+          cell.K[i][j] =
+              .25 * ((full.K[i][j] + full.K[p][across(j)]) + (full.K[i][across(j)] + full.K[p][j]));
+        const double spring = .5 * cell.K[i][i];
+        cell.K[i][i] += spring;
+        cell.K[i][p] -= spring;
+      }
+    }
+
     /** Returns the largest eigenvalue of M^-1 K, for the sound speed 1 [1/m^2]. The power iteration can
      * be too small by about 0.2 %; the limit for the increase of the mass, 1.02 times the time step, covers it. */
     double largest_eigenvalue(const Cell &cell)
@@ -124,7 +149,9 @@ namespace Voussoir
       std::array<Vector3, 8> x;
       for (unsigned int i = 0; i < 8; ++i)
         x[i] = mesh.points[nodes[i]];
-      const Cell   cell = cell_matrices(x);
+      Cell cell = cell_matrices(x);
+      if (mesh.is_slice)
+        make_plane(x, cell);
       const double omega = c * std::sqrt(largest_eigenvalue(cell));
       const double scale = std::max(1., std::pow(1.02 * dt * omega / 2., 2));
       fastest = std::max(fastest, omega);

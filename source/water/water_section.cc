@@ -418,55 +418,95 @@ namespace Voussoir
     }
   } // namespace
 
-  WaterSection::WaterSection(const std::vector<WetQuad> &faces, const double level, const double h)
+  namespace
+  {
+    /** Fills the section with squares, and joins them to the bank. */
+    void fill_banks(WaterSection &section, const Bank &curve, const std::vector<WetQuad> &faces,
+                    const double level, const double h)
+    {
+      std::vector<Point2> &points = section.points;
+      std::vector<bool>   &at_surface = section.at_surface;
+      auto                &cells = section.cells;
+      auto                &bank = section.bank;
+      const double         centre = .5 * (curve.points.front()[0] + curve.points.back()[0]), aside = 1e-4 * h;
+      double               middle = centre;
+      const auto side = [&](const double by) { return on_face(faces, {centre + by, level - .5 * h}).second; };
+      const bool at_joint = side(-aside) != side(aside); // a node there would belong to one side only
+      Squares    squares = squares_in(curve, level, middle, h);
+      if (const Squares other = squares_in(curve, level, middle + .5 * h, h);
+          other.size() > (at_joint ? 0 : squares.size()))
+      {
+        squares = other;
+        middle += .5 * h;
+      }
+      if (squares.empty())
+        too_coarse("the section of the reservoir holds no square", h);
+      std::map<std::pair<int, int>, unsigned int> number;
+      const auto                                  node = [&](const int i, const int j)
+      {
+        const auto found = number.emplace(std::pair(i, j), points.size());
+        if (found.second)
+        {
+          points.push_back({middle + i * h, level - j * h});
+          at_surface.push_back(j == 0);
+        }
+        return found.first->second;
+      };
+      for (const auto &[i, j] : squares)
+        cells.push_back({node(i, j + 1), node(i + 1, j + 1), node(i + 1, j), node(i, j)});
+      const std::vector<unsigned int> stairs = staircase(cells, at_surface, h);
+      std::vector<bool>               is_corner;
+      const std::vector<double>       place = curve.spread(stairs.size() - 1, is_corner);
+      for (std::size_t k = 0; k < stairs.size(); ++k)
+      {
+        bank.push_back(points.size());
+        points.push_back(curve.at(place[k]));
+        at_surface.push_back(k == 0 || k + 1 == stairs.size());
+      }
+      for (std::size_t k = 0; k + 1 < stairs.size(); ++k)
+        cells.push_back({bank[k], bank[k + 1], stairs[k + 1], stairs[k]});
+      smooth(section, curve, stairs, is_corner);
+      for (const auto &cell : cells)
+        for (unsigned int k = 0; k < 4; ++k)
+          if (!(cross(points[cell[k]], points[cell[(k + 1) % 4]], points[cell[(k + 3) % 4]]) > .02 * h * h))
+            too_coarse("the section of the reservoir has a distorted element near y = " +
+                           number_text(points[cell[k]][0]) + " m, z = " + number_text(points[cell[k]][1]) +
+                           " m",
+                       h);
+    }
+
+    /** Fills the section of a slice: one column of quadrilaterals between the planes y = constant. */
+    void fill_slice(WaterSection &section, const Bank &bank, const double level, const double h)
+    {
+      const double right = bank.points.front()[0], left = bank.points.back()[0];
+      double       low = level;
+      for (const Point2 &p : bank.points)
+        low = std::min(low, p[1]);
+      const auto n = std::max<unsigned int>(2, std::lround((level - low) / h));
+      for (unsigned int k = 0; k <= n; ++k)
+      {
+        for (const double y : {right, left})
+        {
+          section.points.push_back({y, level - (n - k) * (level - low) / n});
+          section.at_surface.push_back(k == n);
+        }
+        if (k < n)
+          section.cells.push_back({2 * k, 2 * k + 1, 2 * k + 3, 2 * k + 2});
+      }
+      section.bank = {0, 1};
+    }
+  } // namespace
+
+  WaterSection::WaterSection(const std::vector<WetQuad> &faces, const double level, const double h,
+                             const bool is_slice)
   {
     check_folds(faces);
     const Bank   curve(bank_of(outline(faces), level));
     const double centre = .5 * (curve.points.front()[0] + curve.points.back()[0]), aside = 1e-4 * h;
-    double       middle = centre;
-    const auto   side = [&](const double by) { return on_face(faces, {centre + by, level - .5 * h}).second; };
-    const bool   at_joint = side(-aside) != side(aside); // a node there would belong to one side only
-    Squares      squares = squares_in(curve, level, middle, h);
-    if (const Squares other = squares_in(curve, level, middle + .5 * h, h);
-        other.size() > (at_joint ? 0 : squares.size()))
-    {
-      squares = other;
-      middle += .5 * h;
-    }
-    if (squares.empty())
-      too_coarse("the section of the reservoir holds no square", h);
-    std::map<std::pair<int, int>, unsigned int> number;
-    const auto                                  node = [&](const int i, const int j)
-    {
-      const auto found = number.emplace(std::pair(i, j), points.size());
-      if (found.second)
-      {
-        points.push_back({middle + i * h, level - j * h});
-        at_surface.push_back(j == 0);
-      }
-      return found.first->second;
-    };
-    for (const auto &[i, j] : squares)
-      cells.push_back({node(i, j + 1), node(i + 1, j + 1), node(i + 1, j), node(i, j)});
-    const std::vector<unsigned int> stairs = staircase(cells, at_surface, h);
-    std::vector<bool>               is_corner;
-    const std::vector<double>       place = curve.spread(stairs.size() - 1, is_corner);
-    for (std::size_t k = 0; k < stairs.size(); ++k)
-    {
-      bank.push_back(points.size());
-      points.push_back(curve.at(place[k]));
-      at_surface.push_back(k == 0 || k + 1 == stairs.size());
-    }
-    for (std::size_t k = 0; k + 1 < stairs.size(); ++k)
-      cells.push_back({bank[k], bank[k + 1], stairs[k + 1], stairs[k]});
-    smooth(*this, curve, stairs, is_corner);
-    for (const auto &cell : cells)
-      for (unsigned int k = 0; k < 4; ++k)
-        if (!(cross(points[cell[k]], points[cell[(k + 1) % 4]], points[cell[(k + 3) % 4]]) > .02 * h * h))
-          too_coarse("the section of the reservoir has a distorted element near y = " +
-                         number_text(points[cell[k]][0]) + " m, z = " + number_text(points[cell[k]][1]) +
-                         " m",
-                     h);
+    if (is_slice)
+      fill_slice(*this, curve, level, h);
+    else
+      fill_banks(*this, curve, faces, level, h);
     for (const Point2 &point : points)
     {
       face_x.push_back(on_face(faces, point).first);

@@ -394,8 +394,10 @@ namespace Voussoir
       mesh.cells.push_back(renumbered(cell.nodes));
     for (const Face &face : sorted.wet)
       mesh.wet.push_back(renumbered(face));
+    mesh.is_slice = properties.is_slice;
     for (const Face &face : sorted.bed)
-      mesh.bed.push_back(renumbered(face));
+      if (const Vector3 n = normal_of(corners(volumes.nodes, face)); !mesh.is_slice || std::abs(n[1]) < .5)
+        mesh.bed.push_back(renumbered(face));
     for (const Face &face : sorted.end)
       mesh.end.push_back(renumbered(face));
     for (const Face &face : sorted.wet)

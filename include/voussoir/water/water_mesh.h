@@ -18,6 +18,9 @@ namespace Voussoir
     double depth;       ///< largest depth H [m]
     double length;      ///< of the part without damping upstream of the dam [m]
     double h;           ///< size of the elements at the dam [m]
+
+    /** true: plane strain. The planes y = constant are planes of symmetry, without bed. */
+    bool is_slice = false;
   };
 
   /** Hexahedra of the water, and their outer faces: dam, water surface, bed and banks, upstream end. */
@@ -39,6 +42,8 @@ namespace Voussoir
     std::vector<Vector3>      places;           ///< a node of each column [m]
     std::vector<unsigned int> column;           ///< per node: nodes with the same y and z have one column
     std::vector<unsigned int> far; ///< per node: the nearest one of the end, as number in far_channel()
+
+    bool is_slice = false; ///< WaterProperties::is_slice
 
     unsigned int n_wet() const { return static_cast<unsigned int>(monolith.size()); } ///< nodes at the dam
 

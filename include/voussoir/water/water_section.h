@@ -43,10 +43,11 @@ namespace Voussoir
     /** @param faces upstream face of the dam, above and below the water level
      * @param level water level [m]
      * @param h size of the squares [m]
+     * @param is_slice true: one column of quadrilaterals of the height h, whose bank is the bed only
      *
      * Throws InputError if the face is folded as seen along the river, or if the water level is not on the face;
      * CoarseWater if the section cannot be meshed with this size. */
-    WaterSection(const std::vector<WetQuad> &faces, double level, double h);
+    WaterSection(const std::vector<WetQuad> &faces, double level, double h, bool is_slice = false);
   };
 } // namespace Voussoir
 
