@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "sparse_contact.h"
 
-#include <voussoir/base/blas.h>
-
 #include <umfpack.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+
+extern "C"
+{
+  void dgetrf_(const int *, const int *, double *, const int *, int *, int *);
+  void dgetrs_(const char *, const int *, const int *, const double *, const int *, const int *, double *,
+               const int *, int *);
+}
 
 namespace Voussoir
 {

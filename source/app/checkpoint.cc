@@ -7,7 +7,6 @@
 #include <voussoir/output/archive.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <sstream>
 

@@ -2,12 +2,12 @@
 #include <deal.II/base/parameter_handler.h>
 
 #include <voussoir/app/scene_warnings.h>
+#include <voussoir/base/curve_file.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>
 
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <set>
 #include <sstream>
@@ -43,19 +43,6 @@ namespace Voussoir
       return true;
     }
 
-    /** Opens a file. Throws InputError with @p message if it cannot be read, or if it is a directory, a pipe
-     * or a device, because reading from those may block. */
-    std::ifstream opened(const std::string &file, const std::string &message)
-    {
-      std::error_code error;
-      std::ifstream   in;
-      if (std::filesystem::is_regular_file(file, error))
-        in.open(file);
-      if (!in.is_open())
-        throw InputError(message);
-      return in;
-    }
-
     /** All entries of a .prm text. @p directory: of the file, for its includes. */
     void parse(std::istream &in, const std::string &file, const std::string &directory,
                std::vector<Entry> &entries, std::vector<std::string> &section,
@@ -69,8 +56,6 @@ namespace Voussoir
       for (unsigned int number = 1; std::getline(in, line); ++number)
       {
         const std::string place = file + ", line " + std::to_string(number);
-        if (number == 1 && line.compare(0, 3, "\xEF\xBB\xBF") == 0) // byte order mark
-          line.erase(0, 3);
         line = trimmed(line);
         while (!line.empty() && line.back() == '\\' && std::getline(in, more))
         {
@@ -92,9 +77,9 @@ namespace Voussoir
         else if (starts_with(line, "include", rest))
         {
           const std::string included = (std::filesystem::path(directory) / rest).string();
-          std::ifstream     stream =
-              opened(included, place + ": the included file " + included +
-                                   " cannot be read. Paths of includes are relative to the including file.");
+          std::ifstream     stream = open_text(
+                  included, place + ": the included file " + included +
+                                " cannot be read. Paths of includes are relative to the including file.");
           parse(stream, included, std::filesystem::path(included).parent_path().string(), entries, section,
                 files);
         }
@@ -168,7 +153,7 @@ namespace Voussoir
     std::vector<std::string>         section;
 
     std::ifstream in =
-        opened(file, "The scene file " + file + " cannot be read. Check the path of the .prm file.");
+        open_text(file, "The scene file " + file + " cannot be read. Check the path of the .prm file.");
     const std::filesystem::path path(file);
     scene.name = path.stem().string();
     scene.directory = scene.reservoir.directory = path.parent_path().string();

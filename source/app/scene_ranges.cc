@@ -9,7 +9,6 @@
 #include <voussoir/dam/temperature.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <map>

@@ -6,9 +6,7 @@
 #include <voussoir/foundation/foundation_names.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <sstream>
 
 namespace Voussoir
 {

@@ -2,7 +2,6 @@
 #include <voussoir/app/run_report.h>
 #include <voussoir/app/simulation.h>
 #include <voussoir/base/error.h>
-#include <voussoir/base/number_text.h>
 #include <voussoir/base/ranks.h>
 #include <voussoir/output/energy_check.h>
 

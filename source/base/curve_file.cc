@@ -34,6 +34,23 @@ namespace Voussoir
     }
   } // namespace
 
+  std::ifstream open_text(const std::string &file, const std::string &message)
+  {
+    std::error_code error;
+    std::ifstream   in;
+    if (std::filesystem::is_regular_file(file, error))
+      in.open(file);
+    if (!in.is_open())
+      throw InputError(message);
+    char mark[3] = "";
+    if (!in.read(mark, 3) || std::string(mark, 3) != "\xEF\xBB\xBF")
+    {
+      in.clear();
+      in.seekg(0);
+    }
+    return in;
+  }
+
   double Curve::at(const double at) const
   {
     const std::size_t i = std::lower_bound(x.begin(), x.end(), at) - x.begin();
@@ -45,19 +62,12 @@ namespace Voussoir
   Curve read_curve(const std::string &file, const CurveWords &words)
   {
     const std::string name = words.curve + file;
-    std::error_code   error;
-    std::ifstream     in;
-    if (std::filesystem::is_regular_file(file, error))
-      in.open(file);
-    if (!in.is_open())
-      throw InputError(name + " cannot be read. " + words.without_file + " The columns are " + words.x + " " +
-                       words.unit + ", " + words.y + ".");
-    Curve       curve;
-    std::string line;
+    std::ifstream in = open_text(file, name + " cannot be read. " + words.without_file + " The columns are " +
+                                           words.x + " " + words.unit + ", " + words.y + ".");
+    Curve         curve;
+    std::string   line;
     for (unsigned int number = 1; std::getline(in, line); ++number)
     {
-      if (number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // byte order mark of UTF-8
-        line.erase(0, 3);
       line = line.substr(0, line.find('#'));
       std::replace_if(
           line.begin(), line.end(), [](const char c) { return c == ',' || c == ';' || c == '\r'; }, ' ');

@@ -28,6 +28,21 @@ namespace Voussoir
       entry[i] += block[i];
   }
 
+  void BlockSparseMatrix::extend(std::vector<std::vector<unsigned int>> more)
+  {
+    for (unsigned int row = 0; row < n_rows(); ++row)
+    {
+      more[row].insert(more[row].end(), column.begin() + start[row], column.begin() + start[row + 1]);
+      std::sort(more[row].begin(), more[row].end());
+      more[row].erase(std::unique(more[row].begin(), more[row].end()), more[row].end());
+    }
+    BlockSparseMatrix result(more);
+    for (unsigned int row = 0; row < n_rows(); ++row)
+      for (std::size_t k = start[row]; k < start[row + 1]; ++k)
+        result.add(row, column[k], value[k]);
+    *this = std::move(result);
+  }
+
   void BlockSparseMatrix::multiply(const double *x, double *y) const
   {
     const int n = n_rows();

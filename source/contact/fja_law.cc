@@ -2,7 +2,6 @@
 #include <voussoir/contact/fja_law.h>
 #include <voussoir/contact/pair_conditions.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace Voussoir

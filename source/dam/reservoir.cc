@@ -5,7 +5,6 @@
 #include <voussoir/dam/reservoir.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Voussoir
 {

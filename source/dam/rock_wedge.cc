@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/curve_file.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/nearest_name.h>
 #include <voussoir/base/number_text.h>
@@ -8,7 +9,6 @@
 #include <cctype>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <sstream>
 
@@ -267,17 +267,12 @@ namespace Voussoir
 
     std::vector<RockWedge> WedgeFile::read()
     {
-      std::error_code code;
-      std::ifstream   in;
-      if (std::filesystem::is_regular_file(file, code))
-        in.open(file);
-      if (!in.is_open())
-        throw InputError("Entry \"Limits/Wedges\": the file " + file +
-                         " cannot be read. Its path is relative to the directory of the scene file.");
+      std::ifstream in =
+          open_text(file, "Entry \"Limits/Wedges\": the file " + file +
+                              " cannot be read. Its path is relative to the directory of the scene file.");
       for (std::string line; std::getline(in, line);)
       {
-        if (++number == 1 && line.rfind("\xEF\xBB\xBF", 0) == 0) // byte order mark of UTF-8
-          line.erase(0, 3);
+        ++number;
         line = line.substr(0, line.find('#'));
         if (line.find_first_not_of(" \t\r,;") == std::string::npos)
           continue;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/curve_file.h>
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
@@ -9,7 +10,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <sstream>
 
@@ -97,13 +97,9 @@ namespace Voussoir
 
     DayTable read_table(const std::string &file)
     {
-      std::error_code error;
-      std::ifstream   in;
-      if (std::filesystem::is_regular_file(file, error))
-        in.open(file);
-      if (!in.is_open())
-        throw InputError(entry + ("the file " + file) +
-                         " cannot be read. Its path is relative to the directory of the scene file.");
+      std::ifstream in =
+          open_text(file, entry + ("the file " + file) +
+                              " cannot be read. Its path is relative to the directory of the scene file.");
       DayTable    table;
       std::size_t n_columns = 0;
       std::string line;

@@ -17,7 +17,6 @@
 #include <voussoir/base/reason.h>
 #include <voussoir/foundation/coarse_rock.h>
 
-#include <cmath>
 #include <cstdlib>
 
 namespace Voussoir

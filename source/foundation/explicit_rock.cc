@@ -239,7 +239,7 @@ namespace Voussoir
         .add("boundary", parameters.boundary)
         .add("nodal_layers", region_parameters(parameters, {}, 0.).rock.nodal_layers)
         .add("elements_at_dam", model.n_cells_at_dam - model.n_nodal_at_dam)
-        .add("arrival", arrival()[0])
+        .add("arrival", arrives[0])
         .add("time_step", steps.substep())
         .add("critical_time_step", dt_critical);
     if (balance)

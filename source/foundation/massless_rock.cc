@@ -11,30 +11,6 @@ namespace Voussoir
 {
   namespace
   {
-    /** Returns A + B, where B has the rows and columns @p nodes. */
-    BlockSparseMatrix with_block(const BlockSparseMatrix &A, const std::vector<unsigned int> &nodes,
-                                 const BlockSparseMatrix &B)
-    {
-      std::vector<std::vector<unsigned int>> columns(A.n_rows());
-      for (unsigned int row = 0; row < A.n_rows(); ++row)
-        columns[row].assign(A.column.begin() + A.start[row], A.column.begin() + A.start[row + 1]);
-      for (const unsigned int row : nodes)
-      {
-        std::vector<unsigned int> both;
-        std::set_union(columns[row].begin(), columns[row].end(), nodes.begin(), nodes.end(),
-                       std::back_inserter(both));
-        columns[row] = both;
-      }
-      BlockSparseMatrix result(columns);
-      for (unsigned int row = 0; row < A.n_rows(); ++row)
-        for (std::size_t k = A.start[row]; k < A.start[row + 1]; ++k)
-          result.add(row, A.column[k], A.value[k]);
-      for (unsigned int i = 0; i < B.n_rows(); ++i)
-        for (std::size_t k = B.start[i]; k < B.start[i + 1]; ++k)
-          result.add(nodes[i], nodes[B.column[k]], B.value[k]);
-      return result;
-    }
-
     class MasslessRock : public Foundation, public StepNeighbour
     {
     public:
@@ -225,8 +201,15 @@ namespace Voussoir
         for (Matrix3 &block : of_rock.value)
           for (double &x : block)
             x *= factor;
-        BlockSparseMatrix &K = structure.bodies[0].stiffness;
-        K = with_block(K, dam_nodes.node, of_rock);
+        BlockSparseMatrix                     &K = structure.bodies[0].stiffness;
+        const std::vector<unsigned int>       &nodes = dam_nodes.node;
+        std::vector<std::vector<unsigned int>> more(K.n_rows());
+        for (const unsigned int row : nodes)
+          more[row] = nodes;
+        K.extend(std::move(more));
+        for (unsigned int i = 0; i < of_rock.n_rows(); ++i)
+          for (std::size_t k = of_rock.start[i]; k < of_rock.start[i + 1]; ++k)
+            K.add(nodes[i], nodes[of_rock.column[k]], of_rock.value[k]);
         K.symmetrise();
       }
 

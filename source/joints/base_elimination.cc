@@ -3,32 +3,12 @@
 #include <voussoir/joints/base_elimination.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace Voussoir
 {
   namespace
   {
-    /** Returns the matrix @p R with the sparsity pattern extended by the couplings between base nodes
-     * of one body. */
-    BlockSparseMatrix with_bodies(const BlockSparseMatrix &R, const std::vector<unsigned int> &first)
-    {
-      std::vector<std::vector<unsigned int>> columns(R.n_rows());
-      for (unsigned int b = 0; b + 1 < first.size(); ++b)
-        for (unsigned int i = first[b]; i < first[b + 1]; ++i)
-        {
-          columns[i].assign(R.column.begin() + R.start[i], R.column.begin() + R.start[i + 1]);
-          for (unsigned int k = first[b]; k < first[b + 1]; ++k)
-            columns[i].push_back(k);
-          std::sort(columns[i].begin(), columns[i].end());
-          columns[i].erase(std::unique(columns[i].begin(), columns[i].end()), columns[i].end());
-        }
-      BlockSparseMatrix result(columns);
-      for (unsigned int i = 0; i < R.n_rows(); ++i)
-        for (std::size_t k = R.start[i]; k < R.start[i + 1]; ++k)
-          result.add(i, R.column[k], R.value[k]);
-      return result;
-    }
-
     unsigned int place_in(const std::vector<unsigned int> &sorted, const unsigned int value)
     {
       return std::lower_bound(sorted.begin(), sorted.end(), value) - sorted.begin();
@@ -50,9 +30,17 @@ namespace Voussoir
       for (unsigned int i = first[first.size() - 2]; i < first.back(); ++i)
         interface.push_back(place_in(body.interface, nodes.node[i] - body.first_node));
     }
+    std::vector<std::vector<unsigned int>> more(
+        nodes.node.size()); // couplings between the base nodes of a body
+    for (unsigned int b = 0; b + 1 < first.size(); ++b)
+      for (unsigned int i = first[b]; i < first[b + 1]; ++i)
+      {
+        more[i].resize(first[b + 1] - first[b]);
+        std::iota(more[i].begin(), more[i].end(), first[b]);
+      }
     H.bodies.resize(1);
-    H.bodies[0].stiffness = with_bodies(nodes.compliance, first);
-    nodes.compliance = BlockSparseMatrix(); // releases memory; on massless rock the matrix is dense
+    H.bodies[0].stiffness = std::move(nodes.compliance); // on massless rock the matrix is dense
+    H.bodies[0].stiffness.extend(std::move(more));
     H.mass.resize(nodes.node.size());
   }
 

@@ -3,7 +3,6 @@
 #include <voussoir/joints/condensed_body.h>
 #include <voussoir/joints/packed_factor.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace Voussoir

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/curve_file.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/mesh/arc_table_file.h>
@@ -6,8 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace Voussoir
@@ -88,21 +87,14 @@ namespace Voussoir
 
   ArcTable read_arc_table(const std::string &file, const std::vector<std::string> &columns)
   {
-    std::error_code error;
-    std::ifstream   in;
-    if (std::filesystem::is_regular_file(file, error))
-      in.open(file);
-    if (!in.is_open())
-      throw InputError("The table of arcs " + file +
-                       " cannot be read. Entry \"Mesh/Arcs/Table\" is relative to the "
-                       "directory of the input file.");
+    std::ifstream            in = open_text(file, "The table of arcs " + file +
+                                                      " cannot be read. Entry \"Mesh/Arcs/Table\" is relative to the "
+                                                                 "directory of the input file.");
     ArcTable                 table{file, columns, {}};
     std::vector<std::string> names;
     std::string              line;
     for (unsigned int number = 1; std::getline(in, line); ++number)
     {
-      if (number == 1 && line.compare(0, 3, "\xef\xbb\xbf") == 0)
-        line.erase(0, 3);
       const auto first = line.find_first_not_of(" \t\r,\"");
       if (first == std::string::npos || line[first] == '#')
         continue;

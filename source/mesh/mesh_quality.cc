@@ -5,7 +5,6 @@
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Voussoir
 {

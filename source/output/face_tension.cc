@@ -8,8 +8,6 @@
 
 namespace Voussoir
 {
-  using namespace dealii;
-
   namespace
   {
     /** Returns the area of each node of a surface [m^2]. */

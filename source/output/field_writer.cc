@@ -10,7 +10,6 @@
 #include <voussoir/solid/solid_grid.h>
 #include <voussoir/solid/solid_model.h>
 
-#include <fstream>
 #include <map>
 
 namespace Voussoir

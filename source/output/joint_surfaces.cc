@@ -6,8 +6,6 @@
 #include <voussoir/output/vtu_flags.h>
 #include <voussoir/solid/face_quads.h>
 
-#include <map>
-
 namespace Voussoir
 {
   using namespace dealii;

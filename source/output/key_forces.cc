@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/contact/law_table.h>
-#include <voussoir/dam/scene.h>
 #include <voussoir/output/key_forces.h>
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 #include <voussoir/output/recorders.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 

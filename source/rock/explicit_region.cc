@@ -4,7 +4,6 @@
 #include <voussoir/solid/critical_step.h>
 
 #include <algorithm>
-#include <cmath>
 #include <sstream>
 
 namespace Voussoir

@@ -4,9 +4,7 @@
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
-#include <numeric>
 
 #ifdef _OPENMP
 #include <omp.h>

@@ -11,7 +11,6 @@
 #include <voussoir/solid/triangulation.h>
 
 #include <algorithm>
-#include <map>
 #include <numeric>
 
 namespace Voussoir

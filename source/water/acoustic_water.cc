@@ -105,26 +105,6 @@ namespace Voussoir
                          " m. Set at least one depth, or 0 for two depths.");
       return properties;
     }
-
-    /** Adds zero blocks to a matrix, so that its pattern contains the pairs. */
-    void extend(BlockSparseMatrix &A, const std::set<std::pair<unsigned int, unsigned int>> &pairs)
-    {
-      std::vector<std::vector<unsigned int>> columns(A.n_rows());
-      for (unsigned int row = 0; row < A.n_rows(); ++row)
-        columns[row].assign(A.column.begin() + A.start[row], A.column.begin() + A.start[row + 1]);
-      for (const auto &[row, column] : pairs)
-        columns[row].push_back(column);
-      for (auto &row : columns)
-      {
-        std::sort(row.begin(), row.end());
-        row.erase(std::unique(row.begin(), row.end()), row.end());
-      }
-      BlockSparseMatrix result(columns);
-      for (unsigned int row = 0; row < A.n_rows(); ++row)
-        for (std::size_t k = A.start[row]; k < A.start[row + 1]; ++k)
-          result.add(row, A.column[k], A.value[k]);
-      A = std::move(result);
-    }
   } // namespace
 
   AcousticWater::AcousticWater(const SolidModel &dam, Structure &structure, Foundation &foundation,
@@ -281,7 +261,10 @@ namespace Voussoir
         });
     for (std::size_t b = 0; b < pairs.size(); ++b)
     {
-      extend(structure.bodies[b].stiffness, pairs[b]);
+      std::vector<std::vector<unsigned int>> columns(structure.bodies[b].n_nodes());
+      for (const auto &[row, column] : pairs[b])
+        columns[row].push_back(column);
+      structure.bodies[b].stiffness.extend(std::move(columns));
       structure.bodies[b].reaction.assign(structure.bodies[b].stiffness.value.size(), Matrix3{});
       for (const auto &pair : pairs[b])
         if (pair.first == pair.second)

@@ -2,7 +2,6 @@
 #include <voussoir/water/pressure_point.h>
 
 #include <algorithm>
-#include <cmath>
 
 namespace Voussoir
 {

@@ -11,9 +11,6 @@ extern "C"
               const int *);
   void dgemv_(const char *, const int *, const int *, const double *, const double *, const int *,
               const double *, const int *, const double *, double *, const int *);
-  void dgetrf_(const int *, const int *, double *, const int *, int *, int *);
-  void dgetrs_(const char *, const int *, const int *, const double *, const int *, const int *, double *,
-               const int *, int *);
   void dpotrf_(const char *, const int *, double *, const int *, int *);
   void dpotri_(const char *, const int *, double *, const int *, int *);
   void dsymv_(const char *, const int *, const double *, const double *, const int *, const double *,

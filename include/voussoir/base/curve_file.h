@@ -2,11 +2,16 @@
 #ifndef voussoir_curve_file_h
 #define voussoir_curve_file_h
 
+#include <fstream>
 #include <string>
 #include <vector>
 
 namespace Voussoir
 {
+  /** Opens a text file after its byte order mark of UTF-8. Throws InputError with @p message if it cannot be read, or
+   * if it is a directory, a pipe or a device, because reading from those may block. */
+  std::ifstream open_text(const std::string &file, const std::string &message);
+
   /** Curve of a file: values y at ascending x. */
   struct Curve
   {

@@ -23,6 +23,9 @@ namespace Voussoir
     /** Computes y = A x. Both arrays have 3 n_rows() entries. */
     void multiply(const double *x, double *y) const;
 
+    /** Adds zero blocks, so that the pattern contains the columns @p more of each row, in any order. */
+    void extend(std::vector<std::vector<unsigned int>> more);
+
     /** Replaces the matrix by (A + A^T)/2, which removes the round-off of the assembly. */
     void symmetrise();
 

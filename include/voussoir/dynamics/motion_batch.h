@@ -7,8 +7,6 @@
 
 #include <deal.II/base/aligned_vector.h>
 
-#include <memory>
-
 namespace Voussoir
 {
   /** Structure and static state for batches of ground motions, in single precision. Displacements are increments from

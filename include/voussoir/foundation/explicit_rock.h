@@ -36,15 +36,10 @@ namespace Voussoir
     /** Adds the object "rock" with size, boundary, time steps and, after start(), energies. */
     void add_to_summary(Json &summary, const TimeGrid &grid) const override;
 
-    /** Returns the travel times of the upward waves to the lowest base node: S waves with motion in x and y,
-     * P wave with motion in z [s]. The waves enter one element below the lowest rock node. Must be called
-     * after add_stiffness(). */
-    Vector3 arrival() const { return arrives; }
-
     /** Returns the time at which the ground motion arrives at the lowest base node: the travel time of the S
-     * waves, arrival()[0] [s]. All components arrive at this time, because the faster P wave enters the rock
-     * later by arrival()[0] - arrival()[2]. */
-    double delay() const override { return arrival()[0]; }
+     * waves [s]. All components arrive at this time, because the faster P wave enters the rock
+     * later by arrives[0] - arrives[2]. */
+    double delay() const override { return arrives[0]; }
 
     /** Returns the critical time step of the rock, with its damping [s]; 0 before add_stiffness(). */
     double critical_time_step() const { return dt_critical; }
@@ -111,12 +106,14 @@ namespace Voussoir
     const bool                 incompatible_modes; ///< of the dam's elements
 
     // From add_stiffness() on.
-    std::array<double, 3> centre{};         ///< mean position of the base, source of scattered waves [m]
-    RockModel             model;            ///< after start() without stiffness matrix
-    std::vector<BaseNode> at_base;          ///< base nodes, ascending by rock node
-    Vector3               arrives{};        ///< arrival() [s]
-    double                dt_critical = 0.; ///< critical time step of the rock [s]
-    double                dt_boundary = 0.; ///< largest_boundary_step() [s]
+    std::array<double, 3> centre{}; ///< mean position of the base, source of scattered waves [m]
+    RockModel             model;    ///< after start() without stiffness matrix
+    std::vector<BaseNode> at_base;  ///< base nodes, ascending by rock node
+    /** Travel times of the upward waves to the lowest base node: S waves with motion in x and y, P wave with motion in
+     * z [s]. The waves enter one element below the lowest rock node. */
+    Vector3 arrives{};
+    double  dt_critical = 0.; ///< critical time step of the rock [s]
+    double  dt_boundary = 0.; ///< largest_boundary_step() [s]
 
     std::unique_ptr<RockStaticState> static_state; ///< from add_stiffness() to start()
 

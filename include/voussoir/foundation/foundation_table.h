@@ -3,7 +3,6 @@
 #define voussoir_foundation_table_h
 
 #include <voussoir/foundation/foundation.h>
-#include <voussoir/foundation/foundation_names.h>
 
 #include <memory>
 

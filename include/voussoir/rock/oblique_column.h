@@ -7,7 +7,6 @@
 #include <voussoir/rock/plane_wave.h>
 #include <voussoir/rock/rock_model.h>
 
-#include <array>
 #include <memory>
 
 namespace Voussoir
