@@ -55,11 +55,11 @@ def pulse():
     dt = .000625
     t = np.arange(0, 1 + dt / 2, dt)
     golden.wall("wall.msh", n_up=24)
-    file = scene("stiff", "wall.msh", Concrete={"Young's modulus": 2e15, "Density": 2500}, Damping={"Ratio": 0})
+    file = scene("stiff", "wall.msh", Concrete={"Young's modulus": 2e17, "Density": 2500}, Damping={"Ratio": 0})
     common = settings("Motion/Source=file", "Motion/File=pulse.txt", "Motion/Unit=m/s^2", f"Motion/Time step={dt}", "Motion/Duration=1",
                       "Reservoir/Water level=60", f"Reservoir/Density={RHO}", f"Reservoir/Sound speed={C}", "Reservoir/Element size=2.5",
                       "Output/Figures=false", "Statics/Self-weight=none", "Joints/Model=tied")
-    for length, period, limit in ((0, .4, .025), (900, .4, .01), (0, .1, .1)):
+    for length, period, limit in ((0, .4, .02), (900, .4, .005), (0, .1, .07), (900, .1, .01)):
         a = np.where(t < period, np.sin(2 * np.pi * t / period), 0)
         np.savetxt("pulse.txt", np.column_stack([t, a, 0 * t, 0 * t]))
         exact = wall_force(t, a)

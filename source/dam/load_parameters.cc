@@ -100,8 +100,8 @@ namespace Voussoir
         map());
     prm.add_parameter(
         "Concentrated", concentrated,
-        "Forces on single nodes, as \"NAME: x y z Fx Fy Fz; NAME: ...\" in m and N. A force acts on the node "
-        "that is nearest to the position x y z.",
+        "Forces at points, as \"NAME: x y z Fx Fy Fz; NAME: ...\" in m and N. A force at a point of an "
+        "element acts on the nodes of the element.",
         map());
     prm.add_parameter(
         "Force history", force_history,

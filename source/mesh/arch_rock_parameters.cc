@@ -31,8 +31,7 @@ namespace Voussoir
     prm.add_parameter("Depth", depth, "Depth of the rock" + from, usual, Double(least, 1e5));
     prm.add_parameter("Element size", element_size,
                       "Size of the rock elements far from the dam [m]. They are smaller where the rock is "
-                      "thinnest, and up to 1.7 times as large where it is thickest. Across the valley, "
-                      "\"Elements along\" determines their number." +
+                      "thin. Across the valley, \"Elements along\" determines their number." +
                           std::string(or_from_height ? " 0: 22/210 of the height of the dam." : ""),
                       {2., 100., or_from_height}, Double(or_from_height ? 0. : 1., 1e4));
     prm.add_parameter("Boundary layers", n_layers,
