@@ -535,8 +535,9 @@ namespace Voussoir
       refuse("has no rule of impact and no contact problems. Set \"Dynamics/Impact\" to mean-force and "
              "\"Contact/Write problems\" to false");
     if (damping.law().stiffness > 0. && (motion.source != "none" || moves_alone()))
-      refuse("has no stiffness-proportional damping, which would require very short steps. Set "
-             "\"Damping/Model\" to uniform, or \"Damping/Mass coefficient\" with \"Stiffness coefficient\" = 0");
+      refuse(
+          "has no stiffness-proportional damping, which would require very short steps. Set "
+          "\"Damping/Model\" to uniform, or \"Damping/Mass coefficient\" with \"Stiffness coefficient\" = 0");
   }
 
   void Scene::complete()
