@@ -6,6 +6,7 @@
 """
 
 import sys
+from math import sqrt
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ sys.path[:0] = [str(HERE / "golden"), str(HERE.parent / "meshes"), str(HERE.pare
 import koyna  # noqa: E402
 import meshes  # noqa: E402
 import plane_elements  # noqa: E402
+import scenes  # noqa: E402
 from compare import STRESS, read_vtu, scene  # noqa: E402
 from program_sustained import agree  # noqa: E402
 from program_water import ACOUSTIC, RHO, C, H, base_force, bed_pressure  # noqa: E402
@@ -98,7 +100,7 @@ def joint():
 
 
 ROCK = {"Young's modulus": 20e9, "Poisson's ratio": .25, "Density": 2700.}
-CELLS, BOX = (4, 10), (8, 8)  # of the section; of the rock beside and below it
+CELLS, BOX, WIDE = (4, 10), (8, 8), (16, 16)  # of the section; of the rock beside and below it, and under waves
 
 
 def parts_with_rock(beside, below, degree):
@@ -110,8 +112,8 @@ def parts_with_rock(beside, below, degree):
     return points, plane_elements.assemble(points, of_dam, degree, *KOYNA), plane_elements.assemble(points, of_rock, degree, *ROCK.values())
 
 
-def on_rock(name, thickness, **sections):
-    koyna.write(f"{name}.msh", *CELLS, thickness=thickness, rock=BOX)
+def on_rock(name, thickness, box=BOX, **sections):
+    koyna.write(f"{name}.msh", *CELLS, thickness=thickness, rock=box)
     concrete = dict(zip(("Young's modulus", "Poisson's ratio", "Density"), KOYNA))
     return scene(name, f"{name}.msh", **{"Mesh": {"Plane strain": "true"}, "Concrete": concrete, **sections})
 
@@ -138,6 +140,54 @@ def massless():
         runs(on_rock(f"of_{thickness}", thickness, Foundation={"Model": "massless", **ROCK}, Statics={"Self-weight": "staged"},
                      Motion={"Source": "artificial", "Duration": 1, "Scale y": 0}, Dynamics={"Factors": "double"}), "--output", f"of_{thickness}")
     same("of_1", "of_3", 1e-9, ("history",))
+
+
+def wide_reference(beside, below, wave, early, dt, steps):
+    """Displacements x of the upstream crest and of the base [m] at intervals dt, explicit, in a box so wide that no reflection returns. A plane S wave rises, which
+    comes to the ground after `early` [s], with half of the displacement wave(t) of an outcrop."""
+    nodes, ground = koyna.rock_below(koyna.section(*CELLS)[0], CELLS[0], beside, below)
+    points, dam = np.array(nodes), koyna.section(*CELLS)[1]
+    order = (0, 1, 3, 2)
+    cells = np.array([[cell[k] for k in order] for cell in dam + [cell for cell, _ in ground]])
+    matrices = [plane_elements.assemble(points[cell], np.arange(4)[None], 1, *KOYNA) for cell in cells[:len(dam)]]
+    matrices += [plane_elements.assemble(points[cells[-1]], np.arange(4)[None], 1, *ROCK.values())] * len(ground)
+    stiffness, mass = np.array([K for K, _ in matrices]), np.array([m for _, m in matrices])
+    unknowns = np.stack([2 * cells, 2 * cells + 1], axis=2).reshape(len(cells), 8)
+    mass = np.bincount(unknowns.ravel(), mass.ravel())
+    speed = sqrt(ROCK["Young's modulus"] / 2 / (1 + ROCK["Poisson's ratio"]) / ROCK["Density"])
+    held = np.repeat(points[:, 1] < points[:, 1].min() + 1e-6, 2)
+    held[1::2] |= abs(points[:, 0] - points[:, 0].mean()) > .999 * np.ptp(points[:, 0]) / 2  # the wave has no z there
+    rising = lambda t: np.stack([[.5 * wave(t - early - z / speed) for z in points[:, 1]], 0 * points[:, 1]], axis=1).ravel()
+    before, u, result = rising(-dt), rising(0.), []
+    crest, base = np.argmin(np.hypot(points[:, 0], points[:, 1] - 103.)), np.arange(CELLS[0] + 1)
+    for _ in range(steps):
+        result.append((u[2 * crest], u[2 * base].mean()))
+        force = np.bincount(unknowns.ravel(), np.einsum("eij,ej->ei", stiffness, u[unknowns]).ravel())
+        before, u = u, 2 * u - before - dt**2 * force / mass
+        u[held] = 0.
+    return np.array(result).T
+
+
+def waves():
+    """The section on rock with mass, under a rising S wave: crest and base of a wide box of own elements. Two thicknesses give the same histories."""
+    wave = lambda t: scenes.outcrop(t, .01, .35, 4.)
+    speed = sqrt(ROCK["Young's modulus"] / 2 / (1 + ROCK["Poisson's ratio"]) / ROCK["Density"])
+    size, dt, steps, early = koyna.FACE[0][1] / CELLS[0], .0015, 600, .04
+    delay = (WIDE[1] + 1) * size / speed
+    shaken = {"Source": "file", "File": "wave.txt", "Unit": "m/s^2", "Duration": dt * steps, "Time step": dt}
+    np.savetxt("wave.txt", [[k * dt, wave(k * dt)[1], 0., 0.] for k in range(steps + 1)])
+    rock = {"Model": "rock", **ROCK, "Stiffness damping": 0}
+    for thickness in (1, 20):
+        runs(on_rock(f"of_{thickness}", thickness, WIDE, Elements={"Incompatible modes": "false"}, Foundation=rock, Motion=shaken,
+                     Dynamics={"Factors": "double"}), "--output", f"of_{thickness}")
+    same("of_1", "of_20", 2e-8, ("history",))  # one unit of the last of eight digits
+    header, rows = table("of_1/history.csv")
+    t, x, base = np.array([(row[0], row[header.index("crest_x")], row[header.index("base_x")]) for row in rows]).T  # crest_x: relative to the base
+    fine, n = .001, 680
+    for name, values, exact, limit in zip(("crest", "base"), (x + base, base), wide_reference(52, 76, lambda t: wave(t)[0], early, fine, n), (.02, .02)):
+        off = np.abs(np.interp(np.arange(n) * fine + delay - early, t, values) - exact).max() / np.abs(exact).max()
+        print(f"    {name}: largest difference {100 * off:.2f} % of {1e3 * np.abs(exact).max():.2f} mm (limit {100 * limit} %)")
+        expect(off < limit, f"{name}: {off}")
 
 
 def wet_force(t, a, alpha, n=24, shift=8.):
@@ -194,4 +244,4 @@ def water():
 
 
 if __name__ == "__main__":
-    run_cases(modes, column, joint, massless, water)
+    run_cases(modes, column, joint, massless, waves, water)

@@ -263,7 +263,7 @@ BAD = {
 
 
 def sequence():
-    """Azimuths by file hold for all parts of a sequence and all stations."""
+    """Azimuths by file hold for all parts of a sequence and all stations; files that begin at different times are refused."""
     write("scene.prm", SCENE.format(.01))
     for name, values in (("f", NS), ("g", EW)):
         write(name, rows(values, "%.4f", 1))
@@ -272,6 +272,14 @@ def sequence():
     expect("(1 x)" in shown and "(-1 y)" in shown, shown)
     settings["Azimuths"] += "; h: 9"
     refused(["motion", "scene.prm", "--output", "none.csv", *entries(settings)], "'h'", "channels are f, g.")
+    write("f", knet(NS))
+    for k, text in enumerate((knet(EW, "E-W"), knet(EW, "E-W").replace("14:46:36", "14:46:37"))):
+        write("g", text)
+        command = ["motion", "scene.prm", "--output", "knet.csv", *entries({"File x": "f", "File y": "g", "Azimuths": "x: 0"})]
+        if k == 0:
+            runs(*command)
+        else:
+            refused(command, "14:46:37", "14:46:36", "same first time")
 
 
 # The same spectrum as OpenQuake, USGS, PEER and codes give it: periods [s] and accelerations [g].

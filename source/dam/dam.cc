@@ -74,9 +74,6 @@ namespace Voussoir
     /** Throws InputError if the model cannot be in plane strain. */
     void check_plane_strain(const Scene &scene, const HexMesh &mesh, const HexMesh &opened)
     {
-      if (scene.foundation.model == "rock")
-        throw InputError("\"Mesh/Plane strain\" is true, but \"Foundation/Model\" is rock. Set "
-                         "\"Foundation/Model\" to rigid or massless, or \"Mesh/Plane strain\" to false.");
       if (scene.reservoir.is_meshed() && scene.reservoir.model == "acoustic" &&
           scene.foundation.model != "rigid")
         throw InputError(
@@ -105,7 +102,11 @@ namespace Voussoir
     if (scene.is_explicit())
       founded.coupling = "common step";
     if (scene.mesh.plane_strain)
+    {
       check_plane_strain(scene, mesh, opened);
+      founded.plane_strain = true;
+      founded.free_field = "columns"; // the sides of a slice cut no valley
+    }
     foundation = make_foundation({founded, mesh, source, scene.elements.degree,
                                   scene.elements.incompatible_modes, is_one_body(scene, layout.tied),
                                   scene.mesh.source == "file" ? "" : scene.mesh.section()});

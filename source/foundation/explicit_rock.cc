@@ -38,7 +38,11 @@ namespace Voussoir
       : parameters(site.parameters), mesh(site.parameters.volumes_by_material(site.mesh)),
         source(site.source), generated_in(site.generated_in), incompatible_modes(site.incompatible_modes)
   {
-    read_incidence(parameters.incidence); // reports errors before any work
+    for (const PlaneWave &wave : read_incidence(parameters.incidence)) // reports errors before any work
+      if (parameters.plane_strain && (wave.type == PlaneWave::SH || std::abs(std::sin(wave.azimuth)) > 1e-9))
+        throw InputError(
+            "With \"Mesh/Plane strain\", waves move in the plane x, z. Entry \"Foundation/Incidence\" "
+            "allows P and SV waves with the azimuth 0 or 180 only. Correct it.");
     check_damping(region_parameters(parameters, {}, 0.));
     if (site.degree != 1)
       throw InputError("Foundation/Model = rock requires Elements/Degree = 1, not " +
@@ -95,6 +99,8 @@ namespace Voussoir
     RockParameters rock = region_parameters(parameters, centre, 0.).rock;
     rock.incompatible_modes = incompatible_modes;
     model = make_rock_part(mesh, rock, find, parameters.n_substeps());
+    for (BoundaryLine &line : model.lines)
+      line.distance *= parameters.plane_strain ? 2. : 1.; // waves in a plane spread as r^(-1/2)
     static_state =
         std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
                                           !dam.on_footings.empty(), parameters.boundary == "fixed");
@@ -150,8 +156,13 @@ namespace Voussoir
       split.step(near_base, predicting_rank);
     }
     region = make_region(model, p, std::move(split));
-    const IncidentWave wave = incident_wave(outcrop);
-    const double       wait = delay + arrives[0] - arrives[2];
+    const IncidentWave wave =
+        [all = incident_wave(outcrop), y = parameters.plane_strain ? 0. : 1.](const double t)
+    {
+      const Vector3 u = all(t);
+      return Vector3{{u[0], y * u[1], u[2]}};
+    };
+    const double wait = delay + arrives[0] - arrives[2];
     rising = [wave, delay, wait](const double t)
     {
       const Vector3 s = wave(t - delay), p = wave(t - wait);

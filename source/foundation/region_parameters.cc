@@ -17,6 +17,7 @@ namespace Voussoir
     if (p.nodal_everywhere) // the boundary requires layers without "Layers at the dam"
       result.rock.nodal_layers = std::max(p.nodal_layers, make_boundary(p.boundary)->n_layers());
     result.rock.layers_at_dam = p.layers_at_dam;
+    result.rock.plane_strain = p.plane_strain;
     result.rock.centre = centre;
     result.damping.mass = p.mass_damping;
     result.damping.stiffness = p.stiffness_damping;

@@ -121,6 +121,11 @@ namespace Voussoir
           throw InputError("The ground motion file '" + path + "' starts at " + number_text(start) +
                            " s, but the file '" + sources.front().path + "' at " + number_text(expected) +
                            " s. Cut the records to the same first time.");
+        const std::string clock = sources.back().record.clock, first = sources.front().record.clock;
+        if (!clock.empty() && !first.empty() && clock != first)
+          throw InputError("The ground motion file '" + path + "' starts at " + clock + ", but the file '" +
+                           sources.front().path + "' at " + first +
+                           ". Give records of one earthquake with the same first time.");
       };
       if (!parameters.file.empty())
         read(parameters.file, -1);

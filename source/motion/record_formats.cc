@@ -60,6 +60,8 @@ namespace Voussoir
         text.fail(text.find("scale factor"),
                   "expected a scale factor as 3920(gal)/6182761. Download the file again.");
       record.dt = 1. / frequency;
+      if (const std::size_t line = text.find("record time"); line < text.lines.size())
+        record.clock = trimmed(text.lines[line].substr(std::string("record time").size()));
       record.unit = unit_of(text, text.find("scale factor"), scale.substr(open + 1, close - open - 1));
       std::size_t         line = std::min<std::size_t>(text.find("memo."), 16) + 1;
       std::vector<double> values =
@@ -91,6 +93,7 @@ namespace Voussoir
           line = k + 1;
       check_quantity(text, line);
       record.dt = text.positive("sampling_interval_s:");
+      record.clock = text.value("date_time_first_sample_yyyymmdd_hhmmss:").substr(0, 15);
       record.unit = unit_of(text, 0, text.value("units:"));
       add_channel(record, text.value("stream:"), text.numbers(line, text.positive("ndata:"), 0, true));
       for (const char *key :

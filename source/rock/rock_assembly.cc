@@ -7,6 +7,8 @@
 #include <voussoir/solid/cell_elasticity.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <numeric>
 
 #ifdef _OPENMP
@@ -120,6 +122,45 @@ namespace Voussoir
       matrix.value.resize(to);
     }
 
+    /** Restricts the stiffness @p K of a cell, 64 blocks, to plane strain. Nodes at the same x and z get the mean of
+     * their forces and see the mean of their displacements. Springs hold the displacements along y and the
+     * differences of such nodes at zero; they are not stiffer than the plane, so that the critical time step does not
+     * depend on the thickness. */
+    void make_plane(const RockGrid::Cell &cell, Matrix3 *K)
+    {
+      std::array<unsigned int, 8> across; // neighbour along y
+      for (unsigned int v = 0; v < 8; ++v)
+      {
+        const auto distance = [&](const unsigned int w)
+        {
+          const auto d = cell->vertex(w) - cell->vertex(v);
+          return v == w ? std::numeric_limits<double>::infinity() : std::hypot(d[0], d[2]);
+        };
+        across[v] = 0;
+        for (unsigned int w = 1; w < 8; ++w)
+          if (distance(w) < distance(across[v]))
+            across[v] = w;
+      }
+      const std::vector<Matrix3> full(K, K + 64);
+      for (unsigned int v = 0; v < 8; ++v)
+        for (unsigned int w = 0; w < 8; ++w)
+          for (const unsigned int i : {0, 2, 6, 8})
+            K[8 * v + w][i] = .25 * ((full[8 * v + w][i] + full[8 * across[v] + across[w]][i]) +
+                                     (full[8 * v + across[w]][i] + full[8 * across[v] + w][i]));
+      for (unsigned int v = 0; v < 8; ++v)
+      {
+        const Matrix3 own = K[9 * v];
+        for (unsigned int w = 0; w < 8; ++w)
+          for (const unsigned int i : {1, 3, 4, 5, 7})
+            K[8 * v + w][i] = v == w && i == 4 ? own[0] : 0.;
+        for (const unsigned int i : {0, 8})
+        {
+          K[9 * v][i] += .5 * own[i];
+          K[8 * v + across[v]][i] -= .5 * own[i];
+        }
+      }
+    }
+
     /** Element matrices of consecutive cells. */
     struct Chunk
     {
@@ -129,7 +170,7 @@ namespace Voussoir
       std::vector<Matrix3>        stiffness; ///< 64 per cell
       std::vector<double>         mass;      ///< 8 per cell
 
-      void integrate(const RockGrid &grid, const std::map<int, Material> &materials,
+      void integrate(const RockGrid &grid, const RockParameters &parameters,
                      const std::vector<Integration> &kind)
       {
         if (cells.empty())
@@ -141,11 +182,13 @@ namespace Voussoir
         for (const RockGrid::Cell &cell : cells)
         {
           const Integration of_cell = kind[cell->active_cell_index()];
-          CellElasticity   &element = of_cell == Integration::nodal   ? at_nodes
-                                      : of_cell == Integration::gauss ? gauss
-                                                                      : with_modes;
-          element.reinit(cell, materials.at(cell->material_id()));
+          CellElasticity   &element = of_cell == Integration::gauss        ? gauss
+                                      : of_cell == Integration::with_modes ? with_modes
+                                                                           : at_nodes;
+          element.reinit(cell, parameters.materials.at(cell->material_id()));
           stiffness.insert(stiffness.end(), element.stiffness.begin(), element.stiffness.end());
+          if (parameters.plane_strain)
+            make_plane(cell, stiffness.data() + stiffness.size() - 64);
           mass.insert(mass.end(), element.mass.begin(), element.mass.end());
         }
       }
@@ -191,8 +234,7 @@ namespace Voussoir
       for (Chunk &chunk : chunks)
         for (chunk.cells.clear(); chunk.cells.size() < Chunk::most && cell != end; ++cell)
           chunk.cells.push_back(cell);
-      for_each_parallel(chunks.size(),
-                        [&](const int c) { chunks[c].integrate(grid, parameters.materials, kind); });
+      for_each_parallel(chunks.size(), [&](const int c) { chunks[c].integrate(grid, parameters, kind); });
       for (const Chunk &chunk : chunks)
         chunk.add_to(model, grid, kind);
     }

@@ -23,7 +23,8 @@ namespace Voussoir
   {
     nodal,
     gauss,
-    with_modes ///< Gauss points and incompatible modes, as in the dam
+    with_modes, ///< Gauss points and incompatible modes, as in the dam
+    nodal_plane ///< nodal in plane strain, where all corners are coupled
   };
 
   /** Assembles stiffness and mass of the @p model. @p rows: rows of the stiffness matrix that are filled;

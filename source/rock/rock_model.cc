@@ -23,6 +23,8 @@ namespace Voussoir
           kind[k] = parameters.incompatible_modes ? Integration::with_modes : Integration::gauss;
         if (at_boundary[k])
           kind[k] = Integration::nodal;
+        if (parameters.plane_strain && kind[k] == Integration::nodal)
+          kind[k] = Integration::nodal_plane;
         model.n_cells_at_dam += at_dam[k];
         model.n_nodal_at_dam += at_dam[k] && at_boundary[k];
       }
@@ -120,8 +122,11 @@ namespace Voussoir
             model.lines.emplace_back();
             rocks.emplace_back();
           }
-          BoundaryLine &line = model.lines[k];
-          line.distance = std::max(line.distance, found.places[0].distance(centre));
+          BoundaryLine    &line = model.lines[k];
+          dealii::Point<3> source = centre;
+          if (parameters.plane_strain)
+            source[1] = found.places[0][1];
+          line.distance = std::max(line.distance, found.places[0].distance(source));
           if (line.nodes.empty() || found.nodes[1] == line.nodes[1])
             rocks[k].emplace_back(parameters.materials.at(face.cell->material_id()), face.area);
           if (!line.nodes.empty() &&

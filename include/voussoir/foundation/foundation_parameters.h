@@ -28,7 +28,8 @@ namespace Voussoir
     unsigned int nodal_layers = 6;  ///< element layers of nodal quadrature at the artificial boundary
     unsigned int layers_at_dam = 3; ///< element layers with the dam's quadrature at the base
     unsigned int substeps = 0; ///< rock time steps per time step of the dam; 0: from the critical time step
-    std::string  coupling = "auto"; ///< auto, mean traction or partition; Dam: common step
+    std::string  coupling = "auto";    ///< auto, mean traction or partition; Dam: common step
+    bool         plane_strain = false; ///< no displacements along y; set by Dam
 
     static constexpr double largest_poisson = .45; ///< upper limit of Poisson's ratio of rock [-]
 

@@ -30,6 +30,7 @@ namespace Voussoir
     double                     dt = 0.;    ///< sampling interval [s]
     std::vector<MotionChannel> channels;   ///< of equal length
     std::string                unit;       ///< unit_name() that the file states, or empty
+    std::string                clock;      ///< date and time of the first sample to the second, or empty
 
     bool        is_table = true; ///< false: the format has its own unit; "Motion/Unit" is then ignored
     std::string notes;           ///< format and corrections, for the log

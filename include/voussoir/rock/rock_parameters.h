@@ -32,6 +32,8 @@ namespace Voussoir
     unsigned int layers_at_dam = 0;
     bool         incompatible_modes = true; ///< incompatible modes in these layers, as in the dam
 
+    bool plane_strain = false; ///< the region is a slice of cells without displacements along y
+
     std::array<double, 3> centre = {
         {0., 0., 0.}}; ///< source point of the scattered waves: base of the dam [m]
   };
