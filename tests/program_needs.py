@@ -101,6 +101,7 @@ def verdicts():
 
 def motions(n, base):
     """Paired changes over motions: exactly 1 without effect, the same in any order; a change below the scatter; a median that is not known."""
+    from voussoir.needs_command import Needs
     sizes = (1., 3., 0.2, 7., 1.7, 0.9, 2.3, 1.1)
     scene = {k: {name: size * value for name, value in base.items()} for k, size in enumerate(sizes)}
     found = n.paired(scene, scene)
@@ -120,7 +121,12 @@ def motions(n, base):
     expect(none["changes"]["slip"] == -1. and none["counts"]["slip"], f"{none}")
     scatter = n.scatter_of(scene)
     expect(abs(scatter["opening"] - (2.916 - 0.912) / 2 / 1.4) < 1e-12 and n.scatter_of({0: base, 1: base})["opening"] is None, f"{scatter}")
-    row = {"group": "x", "name": "x", "set": {}, "reference": "scene", **found}
+    row = {"group": "x", "name": "x", "set": {}, "reference": "scene", "motions": {0: scene[0]}, **found}
+    run = {"motions": {k: scene[k] for k in (1, 3)}, "where": {}, "pace": 1., "changes": {}}
+    Needs.adopt(row, run, {"motions": scene, "pace": 1.}, "batch")
+    n.judge([row], {}, 0.05, {})
+    expect(row["reason"] == "largest opening; the batch has no results of motions 1, 3, 5, 6, 7, 8", f"{row}")
+    del row["missing"]
     for of, verdict in ((scatter, n.BELOW), ({"opening": 0.05}, n.MATTERS), ({}, n.MATTERS), ({"slip": 0.05}, n.MATTERS), ({"slip": 0.2}, n.BELOW)):
         n.judge([row], {}, 0.05, of)
         expect(row["verdict"] == verdict and row["reason"] == "largest opening", f"{row}")
