@@ -236,10 +236,13 @@ namespace Voussoir
     if (total.converged && error > enough)
     {
       std::ostringstream message;
-      message << "The static state of dam and rock did not converge: relative error " << error << " (limit "
-              << enough << ") after " << round
-              << " iterations. Check \"Foundation/Young's modulus\", \"Foundation/Poisson's ratio\" and "
-                 "\"Foundation/Zones\", and the quality of the rock elements (`voussoir mesh`).";
+      message
+          << "The static state of dam and rock did not converge: relative error " << error << " (limit "
+          << enough << ") after " << round
+          << " iterations. Check \"Foundation/Young's modulus\", \"Foundation/Poisson's ratio\" and "
+             "\"Foundation/Zones\", and the quality of the rock elements (`voussoir mesh`). Blocks that slide or open at "
+             "base or lift joints without self-weight can have no unique state: set \"Statics/Self-weight\" to staged, or "
+             "bond these joints (\"Joints/Overrides\" = base: tied, lift: tied).";
       throw ComputationError(message.str());
     }
     for (std::size_t k = 0; k < r.size(); ++k)

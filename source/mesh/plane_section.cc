@@ -16,6 +16,20 @@ namespace Voussoir
     return std::abs(normal[1]) / norm(normal);
   }
 
+  std::array<unsigned int, 8> across_y(const std::array<Vector3, 8> &x)
+  {
+    std::array<unsigned int, 8> result{};
+    for (unsigned int i = 0; i < 8; ++i)
+    {
+      const auto distance = [&](const unsigned int k)
+      { return k == i ? INFINITY : std::hypot(x[k][0] - x[i][0], x[k][2] - x[i][2]); };
+      for (unsigned int k = 1; k < 8; ++k)
+        if (distance(k) < distance(result[i]))
+          result[i] = k;
+    }
+    return result;
+  }
+
   void check_plane_section(const HexMesh &opened, const std::string &source)
   {
     constexpr double tolerance = 1e-6; // of the size of the dam, and of cosines

@@ -4,11 +4,11 @@
 #include <deal.II/base/quadrature_lib.h>
 
 #include <voussoir/base/parallel.h>
+#include <voussoir/mesh/plane_section.h>
 #include <voussoir/solid/cell_elasticity.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 #ifdef _OPENMP
@@ -128,20 +128,11 @@ namespace Voussoir
      * depend on the thickness. */
     void make_plane(const RockGrid::Cell &cell, Matrix3 *K)
     {
-      std::array<unsigned int, 8> across; // neighbour along y
+      std::array<Vector3, 8> x;
       for (unsigned int v = 0; v < 8; ++v)
-      {
-        const auto distance = [&](const unsigned int w)
-        {
-          const auto d = cell->vertex(w) - cell->vertex(v);
-          return v == w ? std::numeric_limits<double>::infinity() : std::hypot(d[0], d[2]);
-        };
-        across[v] = 0;
-        for (unsigned int w = 1; w < 8; ++w)
-          if (distance(w) < distance(across[v]))
-            across[v] = w;
-      }
-      const std::vector<Matrix3> full(K, K + 64);
+        x[v] = {{cell->vertex(v)[0], cell->vertex(v)[1], cell->vertex(v)[2]}};
+      const std::array<unsigned int, 8> across = across_y(x);
+      const std::vector<Matrix3>        full(K, K + 64);
       for (unsigned int v = 0; v < 8; ++v)
         for (unsigned int w = 0; w < 8; ++w)
           for (const unsigned int i : {0, 2, 6, 8})

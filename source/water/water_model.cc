@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/mesh/plane_section.h>
 #include <voussoir/water/water_model.h>
 
 #include <algorithm>
@@ -65,22 +66,14 @@ namespace Voussoir
     /** Restricts the matrices of a cell to motions in the plane x, z, as make_plane() in the rock. */
     void make_plane(const std::array<Vector3, 8> &x, Cell &cell)
     {
-      const Cell full = cell;
+      const Cell                        full = cell;
+      const std::array<unsigned int, 8> across = across_y(x);
       for (unsigned int i = 0; i < 8; ++i)
       {
-        const auto across = [&](const unsigned int j)
-        {
-          const auto distance = [&](const unsigned int k)
-          { return k == j ? 1e300 : std::hypot(x[k][0] - x[j][0], x[k][2] - x[j][2]); };
-          unsigned int nearest = 0;
-          for (unsigned int k = 1; k < 8; ++k)
-            nearest = distance(k) < distance(nearest) ? k : nearest;
-          return nearest;
-        };
-        const unsigned int p = across(i);
+        const unsigned int p = across[i];
         for (unsigned int j = 0; j < 8; ++j)
           cell.K[i][j] =
-              .25 * ((full.K[i][j] + full.K[p][across(j)]) + (full.K[i][across(j)] + full.K[p][j]));
+              .25 * ((full.K[i][j] + full.K[p][across[j]]) + (full.K[i][across[j]] + full.K[p][j]));
         const double spring = .5 * cell.K[i][i];
         cell.K[i][i] += spring;
         cell.K[i][p] -= spring;

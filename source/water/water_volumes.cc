@@ -233,7 +233,7 @@ namespace Voussoir
               "parts (gmsh: Coherence Mesh).");
       }
 
-      /** Throws InputError for a rigid wall that the file hardly means: a cover of the water near its level, and a
+      /** Throws InputError for a rigid wall that is probably an error of the file: a cover of the water near its level, and a
        * face with water on both sides. */
       void check_bed() const
       {

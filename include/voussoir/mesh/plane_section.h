@@ -4,6 +4,7 @@
 
 #include <voussoir/mesh/mesh.h>
 
+#include <array>
 #include <string>
 
 namespace Voussoir
@@ -12,6 +13,9 @@ namespace Voussoir
    * @param cell index of the cell
    * @param face row of hex_faces */
   double cosine_to_y(const HexMesh &mesh, unsigned int cell, unsigned int face);
+
+  /** Returns for each corner @p x of a cell that is a prism along y the one at its x and z [m]. */
+  std::array<unsigned int, 8> across_y(const std::array<Vector3, 8> &x);
 
   /** Checks that a dam is a prism along y: each outer face and each side of a joint is parallel to y, or lies in one
    * of the planes at the smallest and the largest y. Throws InputError for another face.

@@ -76,8 +76,8 @@ namespace Voussoir
     /** Adds motions with fewer components, and other motions of the same spectrum ("scatter"). */
     void add_choices(ModelChoices &choices) const;
 
-    /** Checks the entries. Throws InputError with the name of a wrong entry. @p runs_at_rest: a run without a motion has
-     * its length. */
+    /** Checks the entries. Throws InputError with the name of a wrong entry. @p runs_at_rest: a run without a motion
+     * has its length. */
     void check(bool runs_at_rest = false) const;
 
     /** Returns true if "Duration" is -1. */

@@ -59,8 +59,8 @@ namespace Voussoir
     Vector3                   end_normal() const;
   };
 
-  /** Calls f(area, N) at the four Gauss points of a quadrilateral: its area vector there [m^2], and the shape functions.
-   * The order of the corners gives the direction. */
+  /** Calls f(area, N) at the four Gauss points of a quadrilateral, with its area vector there [m^2] and the shape
+   * functions. The order of the corners gives the direction. */
   template <class Function> void for_points(const std::array<Vector3, 4> &x, const Function &f)
   {
     const double     g = 1. / std::sqrt(3.);
@@ -98,17 +98,17 @@ namespace Voussoir
   /** Returns the mesh of the volumes "water" of a mesh file.
    *
    * An outer face at the water level belongs to the surface. A face on the upstream face of the dam is wet if the
-   * distance of its corners is at most a tenth of the element size. The end is the surface "water end", or else the most
-   * upstream plane. The rest is bed and banks. The damping layer begins at the distance properties.length from the dam
-   * and ends at the end of the mesh.
+   * distance of its corners is at most a tenth of the element size. The end is the surface "water end", or else the
+   * most upstream plane. The rest is bed and banks. The damping layer begins at the distance properties.length from the
+   * dam and ends at the end of the mesh.
    *
    * @param volumes HexMesh::water
    * @param dam upstream face of the dam, above and below the water level
    * @param level water level [m]
    * @param properties depth and length; receives h
    *
-   * Throws InputError if the surface of the volumes is not at the water level, if they do not touch the dam, if they have
-   * no end, or if they are shorter than the depth. */
+   * Throws InputError if the surface of the volumes is not at the water level, or if the volumes do not touch the dam,
+   * have no end, or are shorter than the depth. */
   WaterMesh read_volumes(const HexMesh &volumes, const std::vector<WetQuad> &dam, double level,
                          WaterProperties &properties);
 } // namespace Voussoir
