@@ -117,6 +117,11 @@ namespace Voussoir
     for (Material &material : sustained)
       material.young *= scene.sustained_ratio();
     facts.concrete_zones = zones_of(mesh, false, scene.concrete, listed, "Concrete/Zones");
+    zone_names = mesh.zones;
+    std::map<std::string, Material> with_ratio;
+    for (const auto &zone : scene.damping.zone_ratios())
+      with_ratio[zone.first] = scene.concrete;
+    zones_of(mesh, false, scene.concrete, with_ratio, "Damping/Zones"); // throws InputError
     if (foundation->uses_rock())
       facts.rock_zones =
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
@@ -306,6 +311,21 @@ namespace Voussoir
   {
     return scene.sustained_ratio() != 1. ||
            (foundation->uses_rock() && scene.foundation.sustained_ratio() != 1.);
+  }
+
+  void Dam::set_damping(const double first_frequency)
+  {
+    structure.damping = scene.damping.law(first_frequency, facts.concrete_zones);
+    if (structure.damping.zones.empty())
+      return;
+    damped = materials;
+    for (const Damping::Zone &zone : structure.damping.zones)
+      for (std::size_t i = 0; i < damped.size(); ++i)
+        if (zone_names[i] == zone.name)
+          damped[i].young *= zone.scale;
+    Structure scaled = assemble_structure(*model, damped, scene.elements.incompatible_modes);
+    for (std::size_t b = 0; b < structure.bodies.size(); ++b)
+      structure.bodies[b].damped = std::move(scaled.bodies[b].stiffness);
   }
 
   Structure Dam::sustained_structure() const

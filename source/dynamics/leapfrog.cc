@@ -60,15 +60,17 @@ namespace Voussoir
     std::vector<double> mass; // without the added mass: the frequency is an upper bound
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)
       mass.push_back(mass_of(structure, without, i));
-    const auto multiply = [&](const double *x, double *y)
-    {
-      Unknowns Ku;
-      structure.multiply_stiffness(Unknowns(x, x + 3 * mass.size()), Ku);
-      std::copy(Ku.begin(), Ku.end(), y);
-    };
     double stiffest = structure.damping.modulus;
     for (const double c : structure.damping.c)
       stiffest += structure.damping.modulus * c;
+    const auto multiply = [&](const double *x, double *y)
+    {
+      Unknowns       Ku;
+      const Unknowns u(x, x + 3 * mass.size()), damped = structure.damped_force(u);
+      structure.multiply_stiffness(u, Ku);
+      for (std::size_t k = 0; k < Ku.size(); ++k)
+        y[k] = damped.empty() ? Ku[k] : (Ku[k] + (stiffest - 1.) * damped[k]) / stiffest;
+    };
     CriticalStep                                        result;
     const std::function<void(const double *, double *)> product = multiply;
     result.length = 2. / (largest_frequency(product, mass, &result.node) * std::sqrt(stiffest));
@@ -79,7 +81,7 @@ namespace Voussoir
                      const unsigned int n_steps, StepNeighbour *const neighbour)
       : Integrator(structure, laws), dt(dt), n_steps(n_steps), h(dt / n_steps),
         gain(h / (1. + .5 * h * structure.damping.mass)), neighbour(neighbour), stiffness(structure),
-        clusters(structure), states(structure.pairs.size(), PairState::open)
+        damped(structure, &Body::damped), clusters(structure), states(structure.pairs.size(), PairState::open)
   {
     check(structure);
     std::size_t at = 0;
@@ -104,7 +106,8 @@ namespace Voussoir
 
   double Leapfrog::memory() const
   {
-    double bytes = 14. * sizeof(double) * now.u.size() + stiffness.memory(); // vectors of the state
+    double bytes =
+        14. * sizeof(double) * now.u.size() + stiffness.memory() + damped.memory(); // vectors of the state
     for (const Body &body : structure.bodies)
       bytes += 10. * sizeof(double) * body.stiffness.value.size();
     return bytes;
@@ -406,10 +409,13 @@ namespace Voussoir
     for (int k = 0; k < static_cast<int>(u.size()); ++k)
       u[k] = now.u[k] + h * next[k];
     Stopwatch clock;
+    Unknowns  of_damped;
     stiffness.multiply(u, Ku);
+    if (!structure.damping.zones.empty())
+      damped.multiply(u, of_damped);
     spent.substitutions += clock.seconds();
     const Damping::Energies relaxed =
-        structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation);
+        structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation, std::move(of_damped));
     work.input += works[0];
     work.damping += works[1] + relaxed.dissipated;
     double outside = relaxed.stored;

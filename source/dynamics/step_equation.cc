@@ -6,8 +6,15 @@ namespace Voussoir
 {
   StepOperator trapezoidal_rule(const Structure &structure, const double dt, const double share)
   {
-    return {4. / (dt * dt) + 2. / dt * structure.damping.mass, 1. + structure.damping.more_stiffness(dt),
-            2. / dt, share, 1.};
+    const bool   has_zones = !structure.damping.zones.empty();
+    const double more = structure.damping.more_stiffness(dt);
+    return {4. / (dt * dt) + 2. / dt * structure.damping.mass,
+            has_zones ? 1. : 1. + more,
+            2. / dt,
+            share,
+            1.,
+            0.,
+            has_zones ? more : 0.};
   }
 
   Unknowns StepEquation::known_forces(const DynamicState &now, const StepLoad &step, const double c_m,
@@ -60,8 +67,12 @@ namespace Voussoir
                           const Joints &joints) override
       {
         const double dt = step.dt;
+        const double more = structure.damping.more_stiffness(dt);
+        const auto  &damped = now.relaxation.Ku;
         Unknowns     rhs = known_forces(now, step, 4. / (dt * dt) + 2. / dt * structure.damping.mass,
-                                        structure.damping.more_stiffness(dt) - 1.);
+                                        (damped.empty() ? more : 0.) - 1.);
+        for (std::size_t k = 0; k < damped.size(); ++k)
+          rhs[k] += more * damped[k];
         for (std::size_t k = 0; k < structure.dashpots.size(); ++k)
           rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
         structure.add_reaction(1., now.u, rhs);
@@ -69,7 +80,9 @@ namespace Voussoir
                             joints.u_new, &joints.base);
       }
 
-      void carry(DynamicState &, double, const Unknowns &, const Unknowns &) const override {}
+      void carry(DynamicState &, double, const Unknowns &, const Unknowns &, const Unknowns &) const override
+      {
+      }
     };
 
     /** Unknown: increment to now.u, or to now.u plus the last increment. A now.u is subtracted from the
@@ -121,8 +134,8 @@ namespace Voussoir
         return result;
       }
 
-      void carry(DynamicState &now, const double dt, const Unknowns &u_new,
-                 const Unknowns &Ku_new) const override
+      void carry(DynamicState &now, const double dt, const Unknowns &u_new, const Unknowns &Ku_new,
+                 const Unknowns &damped) const override
       {
         const StepOperator A = trapezoidal_rule(structure, dt, share);
         Carried           &carried = now.carried;
@@ -136,6 +149,8 @@ namespace Voussoir
           {
             const std::size_t k = 3 * i + c;
             carried.resisted[k] = A.stiffness * (Ku_new[k] - now.Ku[k]);
+            if (!damped.empty())
+              carried.resisted[k] += A.damped * (damped[k] - now.relaxation.Ku[k]);
             if (!structure.dashpots.empty())
               carried.resisted[k] += A.dashpot * structure.dashpots[k] * du[c];
             carried.resisted[k] += A.mass * Md[c];

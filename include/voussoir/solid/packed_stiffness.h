@@ -6,11 +6,12 @@
 
 namespace Voussoir
 {
-  /** Stiffness matrix of a structure with its blocks by columns, for products with wide vectors. */
+  /** Stiffness matrix of a structure, or another matrix of its bodies, with its blocks by columns, for products with
+   * wide vectors. */
   class PackedStiffness
   {
   public:
-    explicit PackedStiffness(const Structure &structure);
+    explicit PackedStiffness(const Structure &structure, BlockSparseMatrix Body::*matrix = &Body::stiffness);
 
     /** Sets y = K u, three values per node [N]. The result does not depend on the number of threads. */
     void multiply(const Unknowns &u, Unknowns &y) const;
