@@ -175,7 +175,7 @@ namespace Voussoir
       for (const double frequency : f)
         moved << (moved.tellp() > 0 ? ", " : "") << frequency << " Hz x "
               << std::round(1e4 * dam.structure.damping.of_mode(2. * M_PI * frequency).second) / 1e4;
-      if (!f.empty() && dam.structure.damping.zones.empty())
+      if (!f.empty() && !dam.structure.has_zones())
         log.line("          first modes of the tied dam, and factor by the damping: %s", moved.str().c_str());
     }
   } // namespace

@@ -113,11 +113,8 @@ namespace Voussoir
             .add("band_end", damping.band_end)
             .add("reference_frequency", damping.needs_first_frequency() ? first : damping.reference_frequency)
             .add("static_modulus", dam.structure.damping.modulus);
-        Json zones;
         for (const Damping::Zone &zone : dam.structure.damping.zones)
-          zones.add(zone.name.empty() ? "(no zone)" : zone.name, zone.ratio);
-        if (!dam.structure.damping.zones.empty())
-          json.add("zones", zones);
+          json.add("ratio_" + (zone.name.empty() ? "rest" : zone.name), zone.ratio);
       }
       else
         json.add("frequency_1", damping.frequency_1)

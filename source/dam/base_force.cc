@@ -278,9 +278,7 @@ namespace Voussoir
       const Material &material = model.material_of(cell->active_cell_index(), dam.materials);
       elasticity.reinit(cell, material);
       const double more =
-          dam.damped.empty()
-              ? 0.
-              : model.material_of(cell->active_cell_index(), dam.damped).young / material.young - 1.;
+          model.material_of(cell->active_cell_index(), dam.damped).young / material.young - 1.;
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (const unsigned int b = block[dofs[i]]; contributes(dofs[i]))
         {

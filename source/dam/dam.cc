@@ -112,7 +112,7 @@ namespace Voussoir
                                   scene.mesh.source == "file" ? "" : scene.mesh.section()});
     neighbours = {foundation.get()};
     const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
-    materials = materials_of(mesh.zones, scene.concrete, listed);
+    damped = materials = materials_of(mesh.zones, scene.concrete, listed);
     sustained = materials;
     for (Material &material : sustained)
       material.young *= scene.sustained_ratio();
@@ -316,16 +316,26 @@ namespace Voussoir
   void Dam::set_damping(const double first_frequency)
   {
     structure.damping = scene.damping.law(first_frequency, facts.concrete_zones);
-    if (structure.damping.zones.empty())
-      return;
-    damped = materials;
+    bool differ = false;
     for (const Damping::Zone &zone : structure.damping.zones)
       for (std::size_t i = 0; i < damped.size(); ++i)
-        if (zone_names[i] == zone.name)
-          damped[i].young *= zone.scale;
+        if (zone_names[i] == zone.name && zone.scale != 1.)
+        {
+          damped[i].young = zone.scale * materials[i].young;
+          differ = true;
+        }
+    if (!differ)
+      return;
     Structure scaled = assemble_structure(*model, damped, scene.elements.incompatible_modes);
     for (std::size_t b = 0; b < structure.bodies.size(); ++b)
+    {
+      const BlockSparseMatrix &K = structure.bodies[b].stiffness; // with blocks for rock or water
+      std::vector<std::vector<unsigned int>> columns;
+      for (unsigned int row = 0; row < K.n_rows(); ++row)
+        columns.emplace_back(K.column.begin() + K.start[row], K.column.begin() + K.start[row + 1]);
       structure.bodies[b].damped = std::move(scaled.bodies[b].stiffness);
+      structure.bodies[b].damped.extend(std::move(columns));
+    }
   }
 
   Structure Dam::sustained_structure() const

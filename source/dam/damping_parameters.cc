@@ -120,12 +120,11 @@ namespace Voussoir
     {
       const std::string what = "Entry \"Damping/Zones\": zone \"" + zone + "\"";
       const double      value = number_in_unit(text, "-", what);
-      if (zone_name(zone).empty() || !(value > 0. && value <= largest_uniform))
-        throw InputError(what + " has the damping ratio \"" + text +
-                         "\". Give name and ratio, above 0 and up to " + number_text(largest_uniform) +
-                         ", as in \"heel: 0.03\".");
-      if (!ratios.emplace(zone_name(zone), value).second)
-        throw InputError(what + " is listed twice (case, blanks, '_' and '-' are ignored). Remove one.");
+      if (zone_name(zone).empty() || !(value > 0. && value <= largest_uniform) ||
+          !ratios.emplace(zone_name(zone), value).second)
+        throw InputError(what + " cannot have the damping ratio \"" + text +
+                         "\". Give each zone once, with a ratio above 0 and up to " +
+                         number_text(largest_uniform) + ", as in \"heel: 0.03\".");
     }
     return ratios;
   }
@@ -139,27 +138,25 @@ namespace Voussoir
       return Damping();
     std::vector<Damping::Zone> found;
     const auto                 ratios = zone_ratios();
-    for (const Zone &zone : in_dam)
+    double                     least = 1., most = 0.;
+    DampingParameters          mean = *this;
+    for (std::size_t i = 0; !ratios.empty() && i < in_dam.size(); ++i)
     {
-      const auto own = ratios.find(zone.name);
-      found.push_back({zone.name, own == ratios.end() ? ratio : own->second, 1., {}});
+      const auto own = ratios.find(in_dam[i].name);
+      found.push_back({in_dam[i].name, own == ratios.end() ? ratio : own->second, 1., {}});
+      least = std::min(least, found[i].ratio);
+      most = std::max(most, found[i].ratio);
+      mean.ratio = .5 * (least + most);
     }
-    DampingParameters mean = *this;
     if (!found.empty())
-    {
-      const auto [least, most] = std::minmax_element(
-          found.begin(), found.end(), [](const auto &a, const auto &b) { return a.ratio < b.ratio; });
-      mean.ratio = .5 * (least->ratio + most->ratio);
-      if (least->ratio == most->ratio)
-        found.clear();
       mean.check(); // throws InputError if there is no fit
-    }
     Relaxation fit = mean.relaxation();
     fit.unrelaxed = 1. / fit.modulus(2. * M_PI * reference).real();
     Damping result(fit);
     for (Damping::Zone &zone : found)
     {
-      zone.scale = fit.scale_of(zone.ratio, band_begin, band_end);
+      if (least < most)
+        zone.scale = fit.scale_of(zone.ratio, band_begin, band_end);
       zone.error = fit.scaled(zone.scale).error_of(zone.ratio, band_begin, band_end);
     }
     result.zones = found;

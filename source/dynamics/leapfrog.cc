@@ -81,7 +81,7 @@ namespace Voussoir
                      const unsigned int n_steps, StepNeighbour *const neighbour)
       : Integrator(structure, laws), dt(dt), n_steps(n_steps), h(dt / n_steps),
         gain(h / (1. + .5 * h * structure.damping.mass)), neighbour(neighbour), stiffness(structure),
-        damped(structure, &Body::damped), clusters(structure), states(structure.pairs.size(), PairState::open)
+        clusters(structure), states(structure.pairs.size(), PairState::open)
   {
     check(structure);
     std::size_t at = 0;
@@ -106,8 +106,7 @@ namespace Voussoir
 
   double Leapfrog::memory() const
   {
-    double bytes =
-        14. * sizeof(double) * now.u.size() + stiffness.memory() + damped.memory(); // vectors of the state
+    double bytes = 14. * sizeof(double) * now.u.size() + stiffness.memory(); // vectors of the state
     for (const Body &body : structure.bodies)
       bytes += 10. * sizeof(double) * body.stiffness.value.size();
     return bytes;
@@ -409,13 +408,11 @@ namespace Voussoir
     for (int k = 0; k < static_cast<int>(u.size()); ++k)
       u[k] = now.u[k] + h * next[k];
     Stopwatch clock;
-    Unknowns  of_damped;
     stiffness.multiply(u, Ku);
-    if (!structure.damping.zones.empty())
-      damped.multiply(u, of_damped);
+    const Unknowns damped = structure.damped_force(u);
     spent.substitutions += clock.seconds();
     const Damping::Energies relaxed =
-        structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation, std::move(of_damped));
+        structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation, damped);
     work.input += works[0];
     work.damping += works[1] + relaxed.dissipated;
     double outside = relaxed.stored;

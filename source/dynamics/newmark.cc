@@ -179,9 +179,9 @@ namespace Voussoir
       change[k] -= now.u[k];
     structure.add_reaction(-1., change, load);
     structure.multiply_stiffness(u_new, Ku);
-    const Unknowns damped = structure.damped_force(u_new);
-    equation->carry(now, dt, u_new, Ku, damped);
-    work.damping = structure.damping.advance(dt, now.u, now.Ku, u_new, Ku, now.relaxation, damped);
+    equation->carry(now, dt, u_new, Ku);
+    work.damping = structure.damping.advance(dt, now.u, now.Ku, u_new, Ku, now.relaxation,
+                                             structure.damped_force(u_new));
     Vector3 base; // mean velocity of the base
     for (unsigned int c = 0; c < 3; ++c)
       base[c] = .5 * (now.base_velocity[c] + step.base_velocity[c]);

@@ -6,15 +6,14 @@ namespace Voussoir
 {
   StepOperator trapezoidal_rule(const Structure &structure, const double dt, const double share)
   {
-    const bool   has_zones = !structure.damping.zones.empty();
-    const double more = structure.damping.more_stiffness(dt);
+    const double more = structure.damping.more_stiffness(dt), of_zones = structure.has_zones() ? more : 0.;
     return {4. / (dt * dt) + 2. / dt * structure.damping.mass,
-            has_zones ? 1. : 1. + more,
+            1. + (more - of_zones),
             2. / dt,
             share,
             1.,
             0.,
-            has_zones ? more : 0.};
+            of_zones};
   }
 
   Unknowns StepEquation::known_forces(const DynamicState &now, const StepLoad &step, const double c_m,
@@ -68,7 +67,7 @@ namespace Voussoir
       {
         const double dt = step.dt;
         const double more = structure.damping.more_stiffness(dt);
-        const auto  &damped = now.relaxation.Ku;
+        const auto  &damped = now.relaxation.Ku; // empty without zones
         Unknowns     rhs = known_forces(now, step, 4. / (dt * dt) + 2. / dt * structure.damping.mass,
                                         (damped.empty() ? more : 0.) - 1.);
         for (std::size_t k = 0; k < damped.size(); ++k)
@@ -80,9 +79,7 @@ namespace Voussoir
                             joints.u_new, &joints.base);
       }
 
-      void carry(DynamicState &, double, const Unknowns &, const Unknowns &, const Unknowns &) const override
-      {
-      }
+      void carry(DynamicState &, double, const Unknowns &, const Unknowns &) const override {}
     };
 
     /** Unknown: increment to now.u, or to now.u plus the last increment. A now.u is subtracted from the
@@ -134,8 +131,8 @@ namespace Voussoir
         return result;
       }
 
-      void carry(DynamicState &now, const double dt, const Unknowns &u_new, const Unknowns &Ku_new,
-                 const Unknowns &damped) const override
+      void carry(DynamicState &now, const double dt, const Unknowns &u_new,
+                 const Unknowns &Ku_new) const override
       {
         const StepOperator A = trapezoidal_rule(structure, dt, share);
         Carried           &carried = now.carried;
@@ -149,14 +146,15 @@ namespace Voussoir
           {
             const std::size_t k = 3 * i + c;
             carried.resisted[k] = A.stiffness * (Ku_new[k] - now.Ku[k]);
-            if (!damped.empty())
-              carried.resisted[k] += A.damped * (damped[k] - now.relaxation.Ku[k]);
             if (!structure.dashpots.empty())
               carried.resisted[k] += A.dashpot * structure.dashpots[k] * du[c];
             carried.resisted[k] += A.mass * Md[c];
           }
         }
         structure.add_reaction(A.reaction, carried.moved, carried.resisted);
+        const Unknowns damped = structure.damped_force(carried.moved);
+        for (std::size_t k = 0; k < damped.size(); ++k)
+          carried.resisted[k] += A.damped * damped[k];
         for (std::size_t k = 0; k < rhs.size(); ++k)
           carried.residual[k] = .5 * dt * (rhs[k] - carried.resisted[k]);
       }

@@ -46,7 +46,7 @@ namespace Voussoir
     void fill(const Structure &structure, const Body &body, const StepOperator &step, const Unknowns &springs,
               cholmod_sparse *A)
     {
-      const BlockSparseMatrix &K = body.stiffness, &C = body.damped;
+      const BlockSparseMatrix &K = body.stiffness;
       const unsigned int       n = 3 * K.n_rows();
       int                     *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
       double                  *x = static_cast<double *>(A->x);
@@ -55,21 +55,15 @@ namespace Voussoir
       for (unsigned int row = 0; row < K.n_rows(); ++row)
         for (unsigned int i = 0; i < 3; ++i)
         {
-          std::size_t of_damped = step.damped != 0. ? C.start[row] : 0; // its columns are some of those of K
           p[3 * row + i] = k;
           for (std::size_t e = K.start[row]; e < K.start[row + 1]; ++e)
-          {
-            const Matrix3 *const damped =
-                step.damped != 0. && of_damped < C.start[row + 1] && C.column[of_damped] == K.column[e]
-                    ? &C.value[of_damped++]
-                    : nullptr;
             for (unsigned int j = 0; j < 3; ++j)
               if (3 * K.column[e] + j >= 3 * row + i)
               {
-                double a = step.stiffness * K.value[e][3 * i + j];
-                if (damped != nullptr)
-                  a += step.damped * (*damped)[3 * i + j];
+                double            a = step.stiffness * K.value[e][3 * i + j];
                 const std::size_t node = body.first_node + row;
+                if (step.damped != 0.)
+                  a += step.damped * body.damped.value[e][3 * i + j];
                 if (!body.reaction.empty())
                   a += step.reaction * body.reaction[e][3 * i + j];
                 if (K.column[e] == row)
@@ -81,7 +75,6 @@ namespace Voussoir
                 index[k] = 3 * K.column[e] + j;
                 x[k++] = a;
               }
-          }
         }
       p[n] = k;
     }

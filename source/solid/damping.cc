@@ -217,13 +217,8 @@ namespace Voussoir
 
   DampingMemory Damping::memory_of(const Unknowns &u, const Unknowns &Ku, const Unknowns &damped) const
   {
-    const Unknowns zero(u.size(), 0.);
-    return relaxes() ? DampingMemory{u,
-                                     damped.empty() ? Ku : damped,
-                                     std::vector<Unknowns>(c.size(), zero),
-                                     std::vector<Unknowns>(c.size(), zero),
-                                     zero,
-                                     damped}
+    const std::vector<Unknowns> zeros(c.size(), Unknowns(u.size(), 0.));
+    return relaxes() ? DampingMemory{u, damped.empty() ? Ku : damped, zeros, zeros, zeros[0], damped}
                      : DampingMemory();
   }
 

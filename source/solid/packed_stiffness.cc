@@ -69,18 +69,16 @@ namespace Voussoir
     }
   } // namespace
 
-  PackedStiffness::PackedStiffness(const Structure &structure, BlockSparseMatrix Body::*const matrix)
-      : start(1, 0)
+  PackedStiffness::PackedStiffness(const Structure &structure) : start(1, 0)
   {
     for (const Body &body : structure.bodies)
-      for (unsigned int row = 0; row < (body.*matrix).n_rows(); ++row)
+      for (unsigned int row = 0; row < body.n_nodes(); ++row)
       {
-        const BlockSparseMatrix &K = body.*matrix;
-        for (std::size_t k = K.start[row]; k < K.start[row + 1]; ++k)
+        for (std::size_t k = body.stiffness.start[row]; k < body.stiffness.start[row + 1]; ++k)
         {
-          column.push_back(body.first_node + K.column[k]);
+          column.push_back(body.first_node + body.stiffness.column[k]);
           for (unsigned int c = 0; c < 9; ++c)
-            value.push_back(K.value[k][3 * (c % 3) + c / 3]);
+            value.push_back(body.stiffness.value[k][3 * (c % 3) + c / 3]);
         }
         start.push_back(column.size());
       }

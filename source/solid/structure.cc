@@ -88,7 +88,7 @@ namespace Voussoir
   Unknowns Structure::damped_force(const Unknowns &u) const
   {
     Unknowns force;
-    if (!damping.zones.empty())
+    if (has_zones())
       multiply_stiffness(u, force, &Body::damped);
     return force;
   }

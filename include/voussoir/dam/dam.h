@@ -69,7 +69,7 @@ namespace Voussoir
     const Scene             &scene;      ///< input file
     std::vector<std::string> zone_names; ///< HexMesh::zones
     std::vector<Material>    materials;  ///< of the concrete, one per entry of HexMesh::zones
-    std::vector<Material>    damped;     ///< the same materials for Body::damped; empty: one damping ratio
+    std::vector<Material>    damped;     ///< the same materials for Body::damped
     std::vector<Material>    sustained;  ///< the same materials with the moduli of the static state
 
     DamFacts    facts;  ///< for log and reports

@@ -81,8 +81,8 @@ namespace Voussoir
     const double             h;       ///< [s]
     const double             gain;    ///< change of momentum per force, with the damping of the mass [s]
     StepNeighbour *const     neighbour;
-    const PackedStiffness    stiffness, damped; ///< matrices K and K_c of Damping
-    Unknowns                 outer;             ///< forces of the neighbour at the start of the step h [N]
+    const PackedStiffness    stiffness;
+    Unknowns                 outer; ///< forces of the neighbour at the start of the step h [N]
     const PairClusters       clusters;
     std::vector<PairState>   states;
     SystemTimes              spent;

@@ -20,8 +20,8 @@ namespace Voussoir
    * @param dt length of the step [s]
    * @param share 2 if the joint forces are means over the step, 1 if they are forces at its end [-]
    *
-   * The factors are 4/dt^2 + 2/dt a_0 for M, 1 + Damping::more_stiffness() for K (1 + 2/dt a_1 without mechanisms; with zones
-   * its second part for K_c), and 2/dt for the dashpots. */
+   * The factors are 4/dt^2 + 2/dt a_0 for M, 1 + Damping::more_stiffness() for K (1 + 2/dt a_1 without mechanisms; with
+   * Damping::zones its second part for K_c), and 2/dt for the dashpots. */
   StepOperator trapezoidal_rule(const Structure &structure, double dt, double share);
 
   /** Equation of a step by the trapezoidal rule: the sum of the equations of motion at both ends, in which the
@@ -74,10 +74,8 @@ namespace Voussoir
      * carried.gap
      * @param dt length of the step [s]
      * @param u_new displacement at the end of the step, three values per free node [m]
-     * @param Ku_new stiffness matrix times @p u_new [N]
-     * @param damped Structure::damped_force() of @p u_new [N] */
-    virtual void carry(DynamicState &now, double dt, const Unknowns &u_new, const Unknowns &Ku_new,
-                       const Unknowns &damped) const = 0;
+     * @param Ku_new stiffness matrix times @p u_new [N] */
+    virtual void carry(DynamicState &now, double dt, const Unknowns &u_new, const Unknowns &Ku_new) const = 0;
 
   protected:
     /** Returns load + load_old + M (c_m u + 4/dt v) + c_k K u, the damping by the motion of the base, and

@@ -85,7 +85,7 @@ namespace Voussoir
     double              mass = 0., stiffness = 0.; ///< [1/s], [s]
     double              modulus = 1.;              ///< static modulus over the given one [-]
     std::vector<double> c, tau;                    ///< of each mechanism: [-], [s]
-    std::vector<Zone>   zones;                     ///< empty: one ratio
+    std::vector<Zone>   zones;                     ///< of the dam, if they have entries
     Relaxation          law;
 
     Damping() = default;

@@ -6,12 +6,11 @@
 
 namespace Voussoir
 {
-  /** Stiffness matrix of a structure, or another matrix of its bodies, with its blocks by columns, for products with
-   * wide vectors. */
+  /** Stiffness matrix of a structure with its blocks by columns, for products with wide vectors. */
   class PackedStiffness
   {
   public:
-    explicit PackedStiffness(const Structure &structure, BlockSparseMatrix Body::*matrix = &Body::stiffness);
+    explicit PackedStiffness(const Structure &structure);
 
     /** Sets y = K u, three values per node [N]. The result does not depend on the number of threads. */
     void multiply(const Unknowns &u, Unknowns &y) const;

@@ -16,7 +16,7 @@ namespace Voussoir
     int               number = 0;     ///< physical id of its (first) block
     unsigned int      first_node = 0; ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
     BlockSparseMatrix stiffness;      ///< [N/m], free nodes only
-    BlockSparseMatrix damped;         ///< K_c of Damping [N/m], with a part of its pattern; empty: K_c = K
+    BlockSparseMatrix damped;         ///< K_c of Damping [N/m], on the same pattern; empty: K_c = K
 
     /** Reaction of the water to a change of the displacement in a time step [N/m], on the pattern of the stiffness;
      * empty: none. The force of the water at the end of the step is the load minus the reaction times the change. */
@@ -98,6 +98,9 @@ namespace Voussoir
     /** Computes stiffness, or another @p matrix, times displacement for all bodies [N]. */
     void multiply_stiffness(const Unknowns &u, Unknowns &Ku,
                             BlockSparseMatrix Body::*matrix = &Body::stiffness) const;
+
+    /** Returns true if zones of the dam have different damping ratios. */
+    bool has_zones() const { return !bodies.empty() && bodies[0].damped.n_rows() > 0; }
 
     /** Returns K_c u of Damping [N], or an empty vector if K_c is K. */
     Unknowns damped_force(const Unknowns &u) const;
