@@ -4,7 +4,7 @@
 
     benchmarks/damping_dense.py [--motions 8] [--voussoir PROGRAM]
 
-The dam is prm/coarse.prm with three joints (FJB) and few elements, under its water without added mass. Elements, static state,
+The dam is prm/coarse.prm with three joints (FJB), few elements and a full reservoir without added mass. Elements, static state,
 leapfrog rule, contact and both kinds of damping are computed here. Column `program`: openings of Voussoir with uniform damping
 over those of this file, which must be 1. The other columns: openings with uniform damping over those with the matrix and a
 modulus multiplied by the number in the heading, because the modulus of uniform damping grows with the frequency."""
@@ -13,7 +13,6 @@ import argparse
 import math
 import sys
 import tempfile
-from pathlib import Path
 from statistics import median
 
 import numpy as np
@@ -23,7 +22,7 @@ from program import ROOT, add_program_argument, frequencies, run, simulate
 sys.path.insert(0, str(ROOT / "tests" / "golden"))
 import meshes  # noqa: E402
 
-YOUNG, POISSON, DENSITY, LEVEL, STEP, SAMPLE, RATIO, BAND = 24e9, .2, 2400., 195., .0005, .01, .05, (.5, 20.)
+YOUNG, POISSON, DENSITY, LEVEL, STEP, SAMPLE, RATIO, BAND = 24e9, .2, 2400., 210., .0005, .01, .05, (.5, 20.)
 DAM = {"Mesh/Arch210/Joints": 3, "Mesh/Arch210/Elements along": 8, "Mesh/Arch210/Elements up": 4, "Mesh/Arch210/Elements through": 1,
        "Elements/Incompatible modes": "false", "Joints/Model": "FJB", "Reservoir/Model": "none", "Statics/Self-weight": "none",
        "Concrete/Young's modulus": YOUNG, "Concrete/Poisson's ratio": POISSON, "Concrete/Density": DENSITY, "Reservoir/Water level": LEVEL,

@@ -318,12 +318,12 @@ namespace Voussoir
     structure.damping = scene.damping.law(first_frequency, facts.concrete_zones);
     bool differ = false;
     for (const Damping::Zone &zone : structure.damping.zones)
+    {
+      differ |= zone.scale != 1.;
       for (std::size_t i = 0; i < damped.size(); ++i)
-        if (zone_names[i] == zone.name && zone.scale != 1.)
-        {
+        if (zone_names[i] == zone.name)
           damped[i].young = zone.scale * materials[i].young;
-          differ = true;
-        }
+    }
     if (!differ)
       return;
     Structure scaled = assemble_structure(*model, damped, scene.elements.incompatible_modes);

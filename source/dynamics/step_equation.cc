@@ -6,14 +6,9 @@ namespace Voussoir
 {
   StepOperator trapezoidal_rule(const Structure &structure, const double dt, const double share)
   {
-    const double more = structure.damping.more_stiffness(dt), of_zones = structure.has_zones() ? more : 0.;
-    return {4. / (dt * dt) + 2. / dt * structure.damping.mass,
-            1. + (more - of_zones),
-            2. / dt,
-            share,
-            1.,
-            0.,
-            of_zones};
+    StepOperator A{4. / (dt * dt) + 2. / dt * structure.damping.mass, 1., 2. / dt, share, 1.};
+    (structure.has_zones() ? A.damped : A.stiffness) += structure.damping.more_stiffness(dt);
+    return A;
   }
 
   Unknowns StepEquation::known_forces(const DynamicState &now, const StepLoad &step, const double c_m,
