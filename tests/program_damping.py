@@ -18,7 +18,9 @@ import meshes  # noqa: E402
 from compare import scene  # noqa: E402
 from run_program import expect, refused, run_cases, runs, same, same_to_the_bit, settings, summary, table, voussoir, write, write_scene  # noqa: E402
 
-OFF = {"FJA": 2e-3, "FJB": 2e-3, "KSM": 2e-3, "cohesive": 2e-3, "mass": 2e-3, "lifts": 1e-2, "bonds": 1e-2, "massless": 2e-3, "rock": 2e-3}
+OFF = {"FJA": 2e-3, "FJB": 2e-3, "KSM": 2e-3, "cohesive": 2e-3, "mass": 2e-3, "lifts": 1e-2, "bonds": 1e-2, "massless": 2e-3, "rock": 2e-3,
+       "water": 2e-3, "water_massless": 2e-3, "water_rock": 2e-3}
+WATER = ("Reservoir/Model=acoustic", "Reservoir/Reflection=0.5", "Reservoir/Element size=25")
 UNIFORM = settings("Damping/Model=uniform", "Motion/Duration=0.5", "Output/Figures=false", "Dynamics/Factors=double")
 ROCK = ("Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60")
 
@@ -78,10 +80,11 @@ def explicit():
                            "Mesh/Arch210/Base joint=true"),
                            ("bonds", "Mesh/Arch210/Lift joints=1", "Mesh/Arch210/Base joint=true", "Joints/Strength=1e6"),
                            ("massless", *ROCK, "Foundation/Model=massless"), ("rock", *ROCK, "Foundation/Model=rock"),
+                           ("water", *WATER), ("water_massless", *WATER, *ROCK, "Foundation/Model=massless"), ("water_rock", *WATER, *ROCK, "Foundation/Model=rock"),
                            ("mass", "Damping/Model=Rayleigh", "Damping/Mass coefficient=0.6", "Damping/Stiffness coefficient=0")):
         law = "cohesive" if name == "bonds" else name if name in ("FJB", "KSM", "cohesive") else "FJA"
         more = [*common, *settings(f"Joints/Model={law}", *entries)]
-        runs("scene.prm", "--output", f"explicit_{name}", *more, *settings("Dynamics/Scheme=explicit", "Dynamics/Explicit step=0.0005", "Dynamics/Steps per sample=16"))
+        text = runs("scene.prm", "--output", f"explicit_{name}", *more, *settings("Dynamics/Scheme=explicit", "Dynamics/Explicit step=0.0005", "Dynamics/Steps per sample=16"))
         runs("scene.prm", "--output", f"implicit_{name}", *more, *settings("Dynamics/Steps per sample=32", "Dynamics/Factors=double"))
         if name == "FJA":  # steps of 0.95 of the critical one, recorded once per sample: peaks between are missed
             runs("scene.prm", "--output", "explicit_default", *more, *settings("Dynamics/Scheme=explicit"))
@@ -96,6 +99,9 @@ def explicit():
             (titles, rows), total = table("explicit_rock/energy.csv"), summary("explicit_rock")["rock"]["energy_balance_error"]
             feet, interface = (abs(rows[-1][titles.index(c)]) for c in ("rock_feet", "interface"))
             expect(total < 1e-10 and interface < 1e-10 * feet, f"rock: balance {total}, dam and rock {interface} of {feet}")
+        if name.startswith("water"):
+            of_water = float(re.search(r"energy balance of the water (\S+)", text)[1])
+            expect(of_water < 1e-10, f"{name}: balance of the water {of_water}")
         print(f"    {name}: openings up to {max(y):.4f} m, off by {off:.1e}; energy balance {error:.1e}")
         expect(off < OFF[name] and error < 1e-10, f"{name}: openings off by {off}, energy balance {error}")
 

@@ -128,10 +128,13 @@ def explicit():
         ("Foundation/Model=rock", *rock, "Mesh/Arch210/Base joint=true", ("Base joints on rock", "trapezoidal")),
         ("Foundation/Model=rock", *rock, "Damping/Model=Rayleigh", "Damping/Mass coefficient=0.6", "Damping/Stiffness coefficient=0",
          ("mass-proportional", "uniform")),
-        ("Reservoir/Model=acoustic", ("acoustic water",)),
+        ("Reservoir/Model=incompressible", ("incompressible water", "acoustic")),
         ("Dynamics/Impact=paper", ("rule of impact",)), ("Dynamics/Explicit step=0", ("Explicit step",))))
     text = runs(*uniform, "--output", "limit")
     critical = float(re.search(r"step of an explicit scheme for the dam (\S+) ms", text)[1]) * 1e-3
+    text = runs(*uniform, "--validate", *settings("Reservoir/Model=acoustic", "Damping/Reference frequency=2"))
+    of_water, of_both = float(re.search(r"critical time step (\S+) s", text)[1]), float(re.search(r"scheme for the dam (\S+) ms", text)[1]) * 1e-3
+    expect(.8 < of_both / min(critical, of_water) < 1, f"critical step of the dam {critical}, of the water {of_water}, of both {of_both}")
     refuse([*uniform, "--validate"], ((f"Dynamics/Explicit step={1.001 * critical}", ("above the critical step", "Explicit step")),))
     expect(f"steps of {1e3 * .01 / 20:.3g} ms" in runs(*uniform, "--output", "below", *settings("Dynamics/Explicit step=0.0005"))
            or critical < .0005, "the step that was asked for")

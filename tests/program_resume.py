@@ -98,7 +98,9 @@ CASES = {
     + [(lambda: zoned("Dynamics/Factors=single"), KILLED, two_ranks), (lambda: zoned("Dynamics/Scheme=explicit"), ASKED, two_threads)],
     "explicit": [([*EXPLICIT, *asked(20, f"Joints/Model={law}", "Motion/Duration=1.5")], ASKED, two_threads) for law in ("FJA", "KSM", "cohesive")]
     + [([*EXPLICIT, *program_base.ARCH, *LIFTS, *asked(20, "Motion/Duration=0.6")], ASKED, two_threads)]
-    + [([*EXPLICIT, *ROCK, *asked(20, f"Foundation/Model={model}", "Motion/Duration=0.5")], ASKED, two_threads) for model in ("massless", "rock")],
+    + [([*EXPLICIT, *ROCK, *asked(20, f"Foundation/Model={model}", "Motion/Duration=0.5")], ASKED, two_threads) for model in ("massless", "rock")]
+    + [([*EXPLICIT, *asked(20, "Motion/Duration=0.5", "Reservoir/Model=acoustic", *more)], ASKED, two_threads)
+       for more in ((), ("Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60"))],
     "wedges": [(lambda: wedges("rigid"), KILLED, two_ranks), (lambda: wedges("rock"), KILLED, two_ranks)],
 }
 

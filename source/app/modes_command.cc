@@ -50,7 +50,7 @@ namespace Voussoir
       const bool       is_compressible = dam.scene.reservoir.is_acoustic();
       auto             modes = natural_modes(dam.structure, is_compressible ? count + 4 : count, 1000,
                                              [&](const Unknowns &x, Unknowns &y)
-                                             { dam.water->add_incompressible_mass(water, x, y); });
+                                             { dam.water->with_dam().add_incompressible_mass(water, x, y); });
       if (is_compressible)
         radiation = make_compressible(*dam.water, water, modes, count);
       std::string missing;

@@ -148,6 +148,14 @@ namespace Voussoir
       const CriticalStep critical = critical_step(dam.structure, rock.mass);
       dam.facts.critical_step = critical.length;
       dam.facts.critical_place = dam.model->place_of(critical.node);
+      if (!dam.water)
+        return;
+      std::vector<double> mass;
+      for (std::size_t i = 0; i < dam.structure.n_nodes(); ++i)
+        mass.push_back(mass_of(dam.structure, rock.mass, i));
+      const double of_rock = dam.scene.is_explicit() ? dam.foundation->largest_step() : INFINITY;
+      dam.facts.critical_step = dam.water->with_dam().critical_step(dam.water->model_for(0.),
+                                                                    std::min(critical.length, of_rock), mass);
     }
 
     /** Returns the number of steps of the explicit scheme in a time step @p dt. Throws InputError if the wanted step is
@@ -240,7 +248,8 @@ namespace Voussoir
           "`voussoir modes`.");
     if (dam.water)
     {
-      dam.water->prepare(n_steps > 0 ? motion.dt : 0., scene.steps_per_sample);
+      dam.water->prepare(n_steps > 0 ? motion.dt : 0., scene.steps_per_sample,
+                         scene.is_explicit() ? scene.n_explicit : 0);
       for (const double depth : scene.output.pressure_depths)
         dam.water->point_at(depth); // throws InputError
     }

@@ -521,9 +521,8 @@ namespace Voussoir
     if (foundation.model == "rock" && damping.law().mass > 0. && (motion.source != "none" || moves_alone()))
       refuse("on rock has no mass-proportional damping, which would brake the motion of the rock. Set "
              "\"Damping/Model\" to uniform");
-    if (reservoir.is_meshed())
-      refuse("has no " + reservoir.model +
-             " water. Set \"Reservoir/Model\" to an added mass, such as Westergaard");
+    if (reservoir.model == "incompressible")
+      refuse("has no incompressible water. Set \"Reservoir/Model\" to acoustic");
     if (mass_scaling > 0. && mesh.source != "file")
       throw InputError(
           "Entry \"Dynamics/Mass scaling\" is for meshes from files. Remove it, and enlarge the smallest elements of the "

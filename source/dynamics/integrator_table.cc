@@ -20,7 +20,7 @@ namespace Voussoir
     {
       ensure(!input.support, "The leapfrog rule has no support.");
       return std::make_unique<Leapfrog>(input.structure, input.laws, input.dt, input.n_steps,
-                                        input.neighbour);
+                                        input.neighbours);
     }
   } // namespace
 

@@ -78,10 +78,10 @@ namespace Voussoir
   }
 
   Leapfrog::Leapfrog(const Structure &structure, const JointLaws &laws, const double dt,
-                     const unsigned int n_steps, StepNeighbour *const neighbour)
+                     const unsigned int n_steps, std::vector<StepNeighbour *> neighbours)
       : Integrator(structure, laws), dt(dt), n_steps(n_steps), h(dt / n_steps),
-        gain(h / (1. + .5 * h * structure.damping.mass)), neighbour(neighbour), stiffness(structure),
-        clusters(structure), states(structure.pairs.size(), PairState::open)
+        gain(h / (1. + .5 * h * structure.damping.mass)), neighbours(std::move(neighbours)),
+        stiffness(structure), clusters(structure), states(structure.pairs.size(), PairState::open)
   {
     check(structure);
     std::size_t at = 0;
@@ -134,11 +134,10 @@ namespace Voussoir
     for (unsigned int k = 0; k < n_steps; ++k)
     {
       Work work;
-      if (neighbour)
-      {
+      if (!neighbours.empty())
         outer.assign(now.u.size(), 0.);
+      for (const StepNeighbour *neighbour : neighbours)
         neighbour->add_forces(outer);
-      }
       predict(double(k) / n_steps, load);
       Stopwatch joints;
       solve_joints(k + 1 == n_steps, result, work);
@@ -416,7 +415,7 @@ namespace Voussoir
     work.input += works[0];
     work.damping += works[1] + relaxed.dissipated;
     double outside = relaxed.stored;
-    if (neighbour)
+    for (StepNeighbour *neighbour : neighbours)
     {
       const double before = neighbour->strain();
       neighbour->advance(u, next);

@@ -190,9 +190,9 @@ namespace Voussoir
           this->field->advance();
       }
 
-      Unknowns advance() override
+      Unknowns advance(const unsigned int n) override
       {
-        for (unsigned int j = 0; j < grid.substeps; ++j)
+        for (unsigned int j = 0; j < n; ++j)
           field->advance();
         return field->upstream(places);
       }

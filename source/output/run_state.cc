@@ -35,13 +35,19 @@ namespace Voussoir
     if (n_steps > 0)
       for (Neighbour *neighbour : dam->neighbours)
         neighbour->start(motion, grid(), statics.u);
-    Support *const       support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
-    StepNeighbour *const neighbour =
-        n_steps > 0 && scene().is_explicit() ? dam->foundation->step_neighbour(dam->structure) : nullptr;
+    Support *const               support = n_steps > 0 ? dam->foundation->support(dam->structure) : nullptr;
+    std::vector<StepNeighbour *> explicit_neighbours;
+    if (n_steps > 0 && scene().is_explicit())
+    {
+      if (StepNeighbour *const of_base = dam->foundation->step_neighbour(dam->structure))
+        explicit_neighbours.push_back(of_base);
+      if (dam->water)
+        explicit_neighbours.push_back(dam->water.get());
+    }
     integrator = make_integrator(n_steps > 0 ? scene().scheme : "trapezoidal",
                                  {dam->structure, dam->layout.laws, parameters, motion.dt,
                                   impact_rule(scene().impact_rule), support, scene().has_single_factors(),
-                                  scene().n_explicit, neighbour});
+                                  scene().n_explicit, explicit_neighbours});
     Unknowns load = statics.constant_load();
     if (n_steps > 0)
     {

@@ -105,6 +105,71 @@ namespace Voussoir
                          " m. Set at least one depth, or 0 for two depths.");
       return properties;
     }
+
+    /** Throws InputError if the volumes of a mesh file do not touch the whole wet face. */
+    void check_cover(const WaterCoupling &coupling, const WaterMesh &water_mesh)
+    {
+      Vector3 wet{};
+      for (const Vector3 &part : coupling.area)
+        add(wet, part);
+      if (norm(wet - water_mesh.wet_area) > .05 * norm(wet))
+        throw InputError("Mesh of the water: the volume \"water\" of the mesh file touches " +
+                         number_text(std::round(norm(water_mesh.wet_area))) +
+                         " m2 of the upstream face of the dam, whose part below the water level has " +
+                         number_text(std::round(norm(wet))) +
+                         " m2 (both along their mean normal). Mesh the water at the whole wet face.");
+    }
+
+    /** Sets Body::reaction: @p factor A A^T, with a factor for each water node: rho^2 / (dt D). */
+    void set_reaction(const WaterCoupling &coupling, const std::vector<double> &factor, Structure &structure)
+    {
+      const auto &shares = coupling.shares;
+      const auto  for_pairs = [&](const auto &action)
+      {
+        for (std::size_t first = 0, end; first < shares.size(); first = end)
+        {
+          for (end = first; end < shares.size() && shares[end].water == shares[first].water;)
+            ++end;
+          for (std::size_t i = first; i < end; ++i)
+            for (std::size_t j = first; j < end; ++j)
+              if (shares[i].wet != rigid_ground && shares[j].wet != rigid_ground)
+                action(shares[i], shares[j]);
+        }
+      };
+      std::vector<std::set<std::pair<unsigned int, unsigned int>>> pairs(structure.bodies.size());
+      for_pairs(
+          [&](const WaterCoupling::Share &a, const WaterCoupling::Share &b)
+          {
+            const unsigned int body = structure.body_of(coupling.dam_nodes[a.wet]),
+                               first = structure.bodies[body].first_node;
+            pairs[body].insert({coupling.dam_nodes[a.wet] - first, coupling.dam_nodes[b.wet] - first});
+          });
+      for (std::size_t b = 0; b < pairs.size(); ++b)
+      {
+        std::vector<std::vector<unsigned int>> columns(structure.bodies[b].n_nodes());
+        for (const auto &[row, column] : pairs[b])
+          columns[row].push_back(column);
+        structure.bodies[b].stiffness.extend(std::move(columns));
+        structure.bodies[b].reaction.assign(structure.bodies[b].stiffness.value.size(), Matrix3{});
+        for (const auto &pair : pairs[b])
+          if (pair.first == pair.second)
+            structure.bodies[b].reacting.push_back(pair.first);
+      }
+      for_pairs(
+          [&](const WaterCoupling::Share &a, const WaterCoupling::Share &b)
+          {
+            Body              &body = structure.bodies[structure.body_of(coupling.dam_nodes[a.wet])];
+            const unsigned int row = coupling.dam_nodes[a.wet] - body.first_node,
+                               column = coupling.dam_nodes[b.wet] - body.first_node;
+            const auto from = body.stiffness.column.begin() + body.stiffness.start[row];
+            const auto at =
+                std::lower_bound(from, body.stiffness.column.begin() + body.stiffness.start[row + 1], column);
+            Matrix3 &block = body.reaction[at - body.stiffness.column.begin()];
+            for (unsigned int c = 0; c < 3; ++c)
+              for (unsigned int d = 0; d < 3; ++d)
+                block[3 * c + d] += factor[a.water] * a.area[c] * b.area[d];
+          });
+    }
   } // namespace
 
   AcousticWater::AcousticWater(const SolidModel &dam, Structure &structure, Foundation &foundation,
@@ -115,21 +180,7 @@ namespace Voussoir
         coupling(dam, water_mesh, level, properties.h), far_mesh(water_mesh.far_channel())
   {
     if (volumes != nullptr)
-      check_cover();
-  }
-
-  /** Throws InputError if the volumes of a mesh file do not touch the whole wet face. */
-  void AcousticWater::check_cover() const
-  {
-    Vector3 wet{};
-    for (const Vector3 &part : coupling.area)
-      add(wet, part);
-    if (norm(wet - water_mesh.wet_area) > .05 * norm(wet))
-      throw InputError("Mesh of the water: the volume \"water\" of the mesh file touches " +
-                       number_text(std::round(norm(water_mesh.wet_area))) +
-                       " m2 of the upstream face of the dam, whose part below the water level has " +
-                       number_text(std::round(norm(wet))) +
-                       " m2 (both along their mean normal). Mesh the water at the whole wet face.");
+      check_cover(coupling, water_mesh);
   }
 
   /** Returns the words on larger elements, with a size for which the present time step is small enough. */
@@ -154,9 +205,12 @@ namespace Voussoir
     return "";
   }
 
-  void AcousticWater::prepare(const double time_step, const unsigned int steps_per_sample)
+  void AcousticWater::prepare(const double time_step, const unsigned int steps_per_sample,
+                              const unsigned int n)
   {
-    dt = time_step;
+    is_explicit = n > 0;
+    n_steps = std::max(n, 1u);
+    dt = time_step / n_steps;
     model = std::make_unique<WaterModel>(water_mesh, properties, dt);
     far = std::make_unique<WaterModel>(far_mesh, properties, dt);
     if (model->mass_factor <= largest_mass_factor)
@@ -206,9 +260,10 @@ namespace Voussoir
 
   void AcousticWater::start(const GroundMotion &motion, const TimeGrid &grid, const Unknowns &u)
   {
-    ensure(model && dt == grid.dt, "AcousticWater::prepare() comes before start().");
-    const std::size_t n = model->n_nodes();
-    for (const auto &v : motion.integrated().velocity)
+    ensure(model && dt == grid.dt / n_steps, "AcousticWater::prepare() comes before start().");
+    const std::size_t  n = model->n_nodes();
+    const GroundMotion fine = motion.refined(n_steps);
+    for (const auto &v : fine.integrated().velocity)
       ground_velocity.push_back({{v[0], v[1], v[2]}});
     for (std::size_t i = 0; i < n; ++i)
     {
@@ -217,6 +272,7 @@ namespace Voussoir
     }
     pi.assign(n, 0.);
     phi = before = K_phi = pi;
+    mean.assign(coupling.area.size(), 0.);
     for (std::size_t i = 0; i < far->n_nodes(); ++i)
       far_inverse.push_back(far->at_surface[i] ? 0. : 1. / (far->mass[i] / dt + .5 * far->bed_damping[i]));
     far_pi.assign(far->n_nodes(), 0.);
@@ -224,67 +280,20 @@ namespace Voussoir
     const std::vector<Vector3> &places = water_mesh.places;
     bed_velocity.assign(places.size(), Vector3{});
     valley = foundation.valley(places);
+    steps_of_valley = is_explicit ? 1 : grid.substeps;
     valley_place.assign(valley ? 3 * places.size() : 0, 0.);
     valley_velocity = valley_place;
     if (!motion.stations.empty())
-      banks = std::make_unique<BaseMotion>(motion, places);
+      banks = std::make_unique<BaseMotion>(fine, places);
     for (const unsigned int node : coupling.dam_nodes)
       for (unsigned int c = 0; c < 3; ++c)
         u_wet.push_back(u[3 * std::size_t(node) + c]);
     record.assign(n_records, 0.);
-    set_reaction();
-  }
-
-  /** Sets Body::reaction: rho^2 A A^T / (dt D). */
-  void AcousticWater::set_reaction()
-  {
-    const auto &shares = coupling.shares;
-    const auto  for_pairs = [&](const auto &action)
-    {
-      for (std::size_t first = 0, end; first < shares.size(); first = end)
-      {
-        for (end = first; end < shares.size() && shares[end].water == shares[first].water;)
-          ++end;
-        for (std::size_t i = first; i < end; ++i)
-          for (std::size_t j = first; j < end; ++j)
-            if (shares[i].wet != rigid_ground && shares[j].wet != rigid_ground)
-              action(shares[i], shares[j]);
-      }
-    };
-    std::vector<std::set<std::pair<unsigned int, unsigned int>>> pairs(structure.bodies.size());
-    for_pairs(
-        [&](const WaterCoupling::Share &a, const WaterCoupling::Share &b)
-        {
-          const unsigned int body = structure.body_of(coupling.dam_nodes[a.wet]),
-                             first = structure.bodies[body].first_node;
-          pairs[body].insert({coupling.dam_nodes[a.wet] - first, coupling.dam_nodes[b.wet] - first});
-        });
-    for (std::size_t b = 0; b < pairs.size(); ++b)
-    {
-      std::vector<std::vector<unsigned int>> columns(structure.bodies[b].n_nodes());
-      for (const auto &[row, column] : pairs[b])
-        columns[row].push_back(column);
-      structure.bodies[b].stiffness.extend(std::move(columns));
-      structure.bodies[b].reaction.assign(structure.bodies[b].stiffness.value.size(), Matrix3{});
-      for (const auto &pair : pairs[b])
-        if (pair.first == pair.second)
-          structure.bodies[b].reacting.push_back(pair.first);
-    }
-    for_pairs(
-        [&](const WaterCoupling::Share &a, const WaterCoupling::Share &b)
-        {
-          Body              &body = structure.bodies[structure.body_of(coupling.dam_nodes[a.wet])];
-          const unsigned int row = coupling.dam_nodes[a.wet] - body.first_node,
-                             column = coupling.dam_nodes[b.wet] - body.first_node;
-          const auto from = body.stiffness.column.begin() + body.stiffness.start[row];
-          const auto at =
-              std::lower_bound(from, body.stiffness.column.begin() + body.stiffness.start[row + 1], column);
-          const double factor = properties.density * properties.density * inverse[a.water] / dt;
-          Matrix3     &block = body.reaction[at - body.stiffness.column.begin()];
-          for (unsigned int c = 0; c < 3; ++c)
-            for (unsigned int d = 0; d < 3; ++d)
-              block[3 * c + d] += factor * a.area[c] * b.area[d];
-        });
+    std::vector<double> factor;
+    for (const double x : inverse)
+      factor.push_back(properties.density * properties.density * x / dt);
+    if (!is_explicit)
+      set_reaction(coupling, factor, structure);
   }
 
   /** Computes the mean velocities of bed and banks in the step. */
@@ -304,7 +313,7 @@ namespace Voussoir
     }
     if (!valley)
       return;
-    const Unknowns place = valley->advance();
+    const Unknowns place = valley->advance(steps_of_valley);
     const double   lead = valley->lead();
     for (std::size_t k = 0; k < place.size(); ++k)
     {
@@ -315,30 +324,24 @@ namespace Voussoir
     valley_place = place;
   }
 
-  void AcousticWater::advance_far_channel()
+  /** Computes pi at the end of the step for a dam at rest. */
+  void AcousticWater::predict()
   {
-    std::vector<double> K_phi;
+    find_bed_velocity();
+    const double rho = properties.density;
     far->multiply(far_phi, K_phi);
     for (std::size_t i = 0; i < far_pi.size(); ++i)
     {
       const double C = far->bed_damping[i],
                    pi = ((far->mass[i] / dt - .5 * C) * far_pi[i] - K_phi[i] +
-                         properties.density * dot(far->ground[i], bed_velocity[far_mesh.column[i]])) *
+                         rho * dot(far->ground[i], bed_velocity[far_mesh.column[i]])) *
                         far_inverse[i];
       far_mean[i] = .5 * (far_pi[i] + pi);
       far_pi[i] = pi;
       far_phi[i] += dt * pi;
     }
-  }
-
-  void AcousticWater::advance(Unknowns &load)
-  {
-    const Stopwatch watch;
-    find_bed_velocity();
-    advance_far_channel();
     model->multiply(phi, K_phi);
     before = pi;
-    const double rho = properties.density;
 #pragma omp parallel for schedule(static)
     for (int i = 0; i < static_cast<int>(pi.size()); ++i)
     {
@@ -350,22 +353,57 @@ namespace Voussoir
                model->end_damping[i] * far_mean[water_mesh.far[i]]) *
               inverse[i];
     }
+  }
+
+  void AcousticWater::add_forces(Unknowns &load) const
+  {
+    const double rho = properties.density;
     for (const WaterCoupling::Share &share : coupling.shares)
       for (unsigned int c = 0; c < 3 && share.wet != rigid_ground; ++c)
         load[3 * std::size_t(coupling.dam_nodes[share.wet]) + c] -= rho * share.area[c] * pi[share.water];
+  }
+
+  void AcousticWater::advance(Unknowns &load)
+  {
+    const Stopwatch watch;
+    if (is_explicit)
+      return mean.assign(mean.size(), 0.);
+    predict();
+    add_forces(load);
     watch_total += watch.seconds();
   }
 
   void AcousticWater::update_from_dam(const DynamicState &state)
   {
-    const Stopwatch     watch;
+    const Stopwatch watch;
+    if (is_explicit)
+      return;
+    correct(state.u);
+    for (std::size_t i = 0; i < mean.size(); ++i)
+      mean[i] = .5 * (pi[i] + before[i]);
+    watch_total += watch.seconds();
+  }
+
+  void AcousticWater::advance(const Unknowns &u, const Unknowns &)
+  {
+    const Stopwatch watch;
+    for (std::size_t i = 0; i < mean.size(); ++i)
+      mean[i] += pi[i] / n_steps;
+    predict();
+    correct(u);
+    watch_total += watch.seconds();
+  }
+
+  /** Adds the effect of the dam's displacement @p u_end at the end of the step to pi, advances phi, and adds the works. */
+  void AcousticWater::correct(const Unknowns &u_end)
+  {
     const double        rho = properties.density;
     std::vector<double> source(coupling.area.size(), 0.); // volume that the dam displaces [m^3]
     std::vector<double> change;
     for (std::size_t k = 0; k < coupling.dam_nodes.size(); ++k)
       for (unsigned int c = 0; c < 3; ++c)
       {
-        const double u = state.u[3 * std::size_t(coupling.dam_nodes[k]) + c];
+        const double u = u_end[3 * std::size_t(coupling.dam_nodes[k]) + c];
         change.push_back(u - u_wet[3 * k + c]);
         u_wet[3 * k + c] = u;
       }
@@ -378,22 +416,21 @@ namespace Voussoir
     double stored = 0.;
     for (std::size_t i = 0; i < pi.size(); ++i)
     {
-      const double mean = .5 * (pi[i] + before[i]);
+      const double half = .5 * (pi[i] + before[i]);
       phi[i] += dt * pi[i];
       stored += .5 * model->mass[i] * pi[i] * pi[i] + .5 * K_phi[i] * phi[i];
-      record[radiated] += dt * mean * model->end_damping[i] * (mean - far_mean[water_mesh.far[i]]);
-      record[absorbed] += dt * mean * model->bed_damping[i] * mean;
+      record[radiated] += dt * half * model->end_damping[i] * (half - far_mean[water_mesh.far[i]]);
+      record[absorbed] += dt * half * model->bed_damping[i] * half;
       if (i < source.size())
-        record[work_of_dam] += rho * mean * source[i];
-      record[work_of_ground] += dt * rho * mean * dot(model->ground[i], bed_velocity[water_mesh.column[i]]);
+        record[work_of_dam] += rho * half * source[i];
+      record[work_of_ground] += dt * rho * half * dot(model->ground[i], bed_velocity[water_mesh.column[i]]);
       if (i < source.size())
-        record[work_of_ground] += dt * rho * mean * dot(coupling.area[i], base_velocity);
+        record[work_of_ground] += dt * rho * half * dot(coupling.area[i], base_velocity);
     }
     record[energy] = stored;
     record[largest] = std::max({record[largest], stored, std::abs(record[radiated]), record[absorbed],
                                 std::abs(record[work_of_dam]), std::abs(record[work_of_ground])});
     record[steps] += 1.;
-    watch_total += watch.seconds();
   }
 
   std::vector<std::pair<std::string, double>> AcousticWater::energies() const
@@ -435,24 +472,6 @@ namespace Voussoir
     return arrays;
   }
 
-  std::vector<double> AcousticWater::source(const WaterModel &water, const Unknowns &x) const
-  {
-    std::vector<double> result(water.n_nodes(), 0.);
-    for (const WaterCoupling::Share &share : coupling.shares)
-      if (share.wet != rigid_ground)
-        result[share.water] += properties.density * dot(share.area, get(x, coupling.dam_nodes[share.wet]));
-    return result;
-  }
-
-  void AcousticWater::add_incompressible_mass(const WaterModel &water, const Unknowns &x, Unknowns &y) const
-  {
-    const std::vector<double> potential = water.solve(source(water, x));
-    for (const WaterCoupling::Share &share : coupling.shares)
-      for (unsigned int c = 0; c < 3 && share.wet != rigid_ground; ++c)
-        y[3 * std::size_t(coupling.dam_nodes[share.wet]) + c] +=
-            properties.density * share.area[c] * potential[share.water];
-  }
-
   double AcousticWater::static_pressure(const unsigned int node) const
   {
     return properties.density * gravity * (level - water_mesh.points[node][2]);
@@ -489,8 +508,7 @@ namespace Voussoir
     std::vector<Vector3> result(dam.n_nodes(), Vector3{});
     for (const WaterCoupling::Share &share : coupling.shares)
       for (unsigned int c = 0; c < 3 && !pi.empty(); ++c)
-        result[share.node][c] -=
-            properties.density * share.area[c] * .5 * (pi[share.water] + before[share.water]);
+        result[share.node][c] -= properties.density * share.area[c] * mean[share.water];
     return result;
   }
 } // namespace Voussoir

@@ -143,4 +143,44 @@ namespace Voussoir
         if (const Vector3 &x = wet[f].corners[k]; x[2] < level)
           nearest[quads[f].nodes[k]] = finder.find(x, wet[f].monolith);
   }
+
+  std::vector<double> WaterCoupling::source(const WaterModel &water, const Unknowns &x) const
+  {
+    std::vector<double> result(water.n_nodes(), 0.);
+    for (const WaterCoupling::Share &share : shares)
+      if (share.wet != rigid_ground)
+        result[share.water] += water.density * dot(share.area, get(x, dam_nodes[share.wet]));
+    return result;
+  }
+
+  void WaterCoupling::add_incompressible_mass(const WaterModel &water, const Unknowns &x, Unknowns &y) const
+  {
+    const std::vector<double> potential = water.solve(source(water, x));
+    for (const WaterCoupling::Share &share : shares)
+      for (unsigned int c = 0; c < 3 && share.wet != rigid_ground; ++c)
+        y[3 * std::size_t(dam_nodes[share.wet]) + c] +=
+            water.density * share.area[c] * potential[share.water];
+  }
+
+  double WaterCoupling::critical_step(const WaterModel &water, const double of_dam,
+                                      const std::vector<double> &mass) const
+  {
+    std::vector<double> at_node(mass.size(), 0.), row(water.n_nodes(), 0.);
+    for (const WaterCoupling::Share &share : shares)
+      if (share.wet != rigid_ground && !water.at_surface[share.water])
+        at_node[dam_nodes[share.wet]] += norm(share.area);
+    double square = 0.;
+    for (const WaterCoupling::Share &share : shares)
+      if (share.wet != rigid_ground && !water.at_surface[share.water])
+      {
+        const unsigned int node = dam_nodes[share.wet];
+        double            &sum = row[share.water];
+        sum += water.density * water.density * norm(share.area) * at_node[node] /
+               (mass[node] * water.mass[share.water]);
+        square = std::max(square, sum);
+      }
+    const double of_d = 4. / (of_dam * of_dam), of_w = 4. / (water.critical_step * water.critical_step),
+                 middle = .5 * (of_d + square + of_w), half = .5 * (of_d - square - of_w);
+    return 2. / std::sqrt(middle + std::sqrt(half * half + of_d * square));
+  }
 } // namespace Voussoir

@@ -113,7 +113,7 @@ namespace Voussoir
   } // namespace
 
   WaterModel::WaterModel(const WaterMesh &mesh, const WaterProperties &properties, const double dt)
-      : at_surface(mesh.at_surface)
+      : density(properties.density), at_surface(mesh.at_surface)
   {
     make_pattern(mesh);
     assemble_cells(mesh, properties, dt);

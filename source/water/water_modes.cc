@@ -187,7 +187,7 @@ namespace Voussoir
     ComplexMatrix     Lambda(m, m, 0.), rest(m, m, 0.);
     for (std::size_t k = 0; k < m; ++k)
     {
-      R.push_back(water.source(model, modes[k].shape));
+      R.push_back(water.with_dam().source(model, modes[k].shape));
       Lambda(k, k) = std::pow(2. * M_PI * modes[k].frequency, 2);
       rest(k, k) = 1.;
     }

@@ -256,7 +256,7 @@ def mirrored(case):
     if "Loads/Crest line" in entries:
         changes["Loads/Crest line"] = re.sub(r"^(\S+) ", r"\1 -", entries["Loads/Crest line"])
     if "Foundation/Incidence" in entries:
-        changes["Foundation/Incidence"] = "SV 15 -90, SH 10 180, P 10 -30 0.01"
+        changes["Foundation/Incidence"] = "SV 15 -90, SH 10 0, P 10 -30 0.01"
     if "Motion/Abutments" in entries:
         changes["Motion/Abutments"] = entries["Motion/Abutments"].replace("right", "LEFT").replace("left", "right").replace("LEFT", "left")
     if case.has("joint 1"):

@@ -11,15 +11,15 @@ namespace Voussoir
   /** What an integrator is made from. Structure, laws and support must outlive it. */
   struct IntegratorInput
   {
-    const Structure  &structure;
-    const JointLaws  &laws;
-    ContactParameters contact;                       ///< parameters of the contact solver
-    double            dt = 0.;                       ///< time step [s]
-    ImpactRule        rule = ImpactRule::mean_force; ///< velocity correction of closed pairs
-    Support          *support = nullptr;             ///< subcycled or massless foundation, or nullptr
-    bool              single_factors = false;        ///< factors in single precision
-    unsigned int      n_steps = 1;                   ///< steps of the explicit scheme in a time step
-    StepNeighbour    *neighbour = nullptr;           ///< takes these steps, too; or nullptr
+    const Structure             &structure;
+    const JointLaws             &laws;
+    ContactParameters            contact;                       ///< parameters of the contact solver
+    double                       dt = 0.;                       ///< time step [s]
+    ImpactRule                   rule = ImpactRule::mean_force; ///< velocity correction of closed pairs
+    Support                     *support = nullptr;      ///< subcycled or massless foundation, or nullptr
+    bool                         single_factors = false; ///< factors in single precision
+    unsigned int                 n_steps = 1;            ///< steps of the explicit scheme in a time step
+    std::vector<StepNeighbour *> neighbours = {};        ///< take these steps, too
   };
 
   /** A time scheme that an input file can choose. */

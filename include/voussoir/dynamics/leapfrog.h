@@ -42,12 +42,12 @@ namespace Voussoir
      * @param laws joint laws of the pairs
      * @param dt time step of advance() [s]
      * @param n_steps number of steps h in dt, below the critical step
-     * @param neighbour takes the steps h, too; or nullptr
+     * @param neighbours take the steps h, too
      *
      * There must be one process, and the structure must have no stiffness term of the damping, dashpots or reactions of
      * water. */
     Leapfrog(const Structure &structure, const JointLaws &laws, double dt, unsigned int n_steps,
-             StepNeighbour *neighbour = nullptr);
+             std::vector<StepNeighbour *> neighbours = {});
 
     void          start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                         const Unknowns &reference, const Unknowns &memory = {},
@@ -76,21 +76,21 @@ namespace Voussoir
     void         move(double share, const Unknowns &load, bool is_last, Work &work);
     void         account(double more);
 
-    const double             dt;
-    const unsigned int       n_steps; ///< steps h in dt
-    const double             h;       ///< [s]
-    const double             gain;    ///< change of momentum per force, with the damping of the mass [s]
-    StepNeighbour *const     neighbour;
-    const PackedStiffness    stiffness;
-    Unknowns                 outer; ///< forces of the neighbour at the start of the step h [N]
-    const PairClusters       clusters;
-    std::vector<PairState>   states;
-    SystemTimes              spent;
-    Unknowns                 next;                       ///< velocity at the end of the step h [m/s]
-    Unknowns                 u, Ku;                      ///< displacement at this time [m], and K u [N]
-    Unknowns                 pair_force;                 ///< joint forces of the step h [N]
-    Unknowns                 gap_before, gap, gap_after; ///< of the steps k - 1, k and k + 1 [m]
-    std::vector<std::size_t> memory_begin;               ///< of each pair
+    const double       dt;
+    const unsigned int n_steps; ///< steps h in dt
+    const double       h;       ///< [s]
+    const double       gain;    ///< change of momentum per force, with the damping of the mass [s]
+    const std::vector<StepNeighbour *> neighbours;
+    const PackedStiffness              stiffness;
+    Unknowns                           outer; ///< forces of the neighbours at the start of the step h [N]
+    const PairClusters                 clusters;
+    std::vector<PairState>             states;
+    SystemTimes                        spent;
+    Unknowns                           next;       ///< velocity at the end of the step h [m/s]
+    Unknowns                           u, Ku;      ///< displacement at this time [m], and K u [N]
+    Unknowns                           pair_force; ///< joint forces of the step h [N]
+    Unknowns                           gap_before, gap, gap_after; ///< of the steps k - 1, k and k + 1 [m]
+    std::vector<std::size_t>           memory_begin;               ///< of each pair
   };
 } // namespace Voussoir
 

@@ -47,9 +47,9 @@ namespace Voussoir
   public:
     virtual ~ValleyMotion() = default;
 
-    /** Advances by one time step of the dam. Returns the displacement since the start of the earthquake, three values
+    /** Advances by @p n steps of the rock. Returns the displacement since the start of the earthquake, three values
      * per place [m]. Must be called by all ranks. */
-    virtual Unknowns advance() = 0;
+    virtual Unknowns advance(unsigned int n) = 0;
 
     /** Returns the time of the displacement minus the time at which the step of the dam ends [s]. */
     virtual double lead() const = 0;

@@ -22,13 +22,14 @@ namespace Voussoir
    *     phi_n+3/2 = phi_n+1/2 + dt pi_n+1
    *
    * pi_n+1 depends on the displacement of the dam: Body::reaction = rho^2 A A^T / (dt D). The scheme is stable for
-   * time steps below the critical one of the water, and conserves energy.
+   * time steps below the critical one of the water, and conserves energy. An explicit dam takes the same steps as the
+   * water (StepNeighbour): the forces on its nodes are -rho A pi_n, and the critical step is that of both.
    *
    * Far upstream the motion does not depend on x. WaterMesh::far_channel() computes this motion, and the damping of
    * the end of the channel acts on the difference to it. Bed and banks have the same velocity v_g in all sections of
    * the channel: the ground motion, the motions of the banks (Motion/Abutments), or on rock with mass its free field
    * (BaseSupport::valley()). */
-  class AcousticWater : public Neighbour
+  class AcousticWater : public Neighbour, public StepNeighbour
   {
   public:
     /** Generates the mesh of a channel, or takes the water volumes of the mesh file.
@@ -46,6 +47,8 @@ namespace Voussoir
     void   start(const GroundMotion &motion, const TimeGrid &grid, const Unknowns &u) override;
     void   advance(Unknowns &load) override;
     void   update_from_dam(const DynamicState &state) override;
+    void   add_forces(Unknowns &load) const override;
+    void   advance(const Unknowns &u, const Unknowns &w) override;
     double seconds() const override { return watch_total; }
 
     /** Returns the energy of the water, the energies radiated at the end of the channel and absorbed at bed and banks,
@@ -59,15 +62,8 @@ namespace Voussoir
     /** Returns the finite elements for a time step [s]; 0: without increase of the mass. */
     WaterModel model_for(const double dt) const { return WaterModel(water_mesh, properties, dt); }
 
-    /** Adds the mass of incompressible water times the accelerations @p x, three values per node, to y [N]:
-     * rho^2 A K^-1 A^T. Bed and banks are at rest. @p water: model_for(0). */
-    void add_incompressible_mass(const WaterModel &water, const Unknowns &x, Unknowns &y) const;
-
-    /** Returns the source of the water for a displacement @p x of the dam, three values per node: rho A^T x, one value
-     * per node of @p water. */
-    std::vector<double> source(const WaterModel &water, const Unknowns &x) const;
-
-    const WaterMesh &mesh() const { return water_mesh; }
+    const WaterMesh     &mesh() const { return water_mesh; }
+    const WaterCoupling &with_dam() const { return coupling; }
 
     /** Returns the dynamic pressure at each water node at the dam [Pa]. */
     std::vector<double> pressure() const;
@@ -88,8 +84,8 @@ namespace Voussoir
 
     /** Assembles the matrices for a time step [s]; 0: no earthquake. Must be called before report() and start(). Throws
      * InputError if the mass of the water must be increased by more than 30 %. @p steps_per_sample: entry of the input
-     * file, for the message. */
-    void prepare(double dt, unsigned int steps_per_sample);
+     * file, for the message. @p n: steps of an explicit dam in the time step; 0: the dam is implicit. */
+    void prepare(double dt, unsigned int steps_per_sample, unsigned int n = 0);
 
     /** Writes the properties to the log, and the places of point_at() for the @p depths [m]. */
     void report(Log &log, const std::vector<double> &depths) const;
@@ -98,11 +94,10 @@ namespace Voussoir
     double       gravity = 9.81; ///< [m/s^2]
 
   private:
-    void        check_cover() const;
     std::string larger_elements() const;
-    void        set_reaction();
+    void        predict();
+    void        correct(const Unknowns &u);
     void        find_bed_velocity();
-    void        advance_far_channel();
 
     const SolidModel             &dam;
     Structure                    &structure;
@@ -111,7 +106,10 @@ namespace Voussoir
     WaterMesh                     water_mesh;
     WaterCoupling                 coupling;
     std::unique_ptr<WaterModel>   model;
-    double                        dt = 0.;
+    double                        dt = 0.;             ///< step of the water [s]
+    unsigned int                  n_steps = 1;         ///< steps of the water in a step of the run
+    unsigned int                  steps_of_valley = 1; ///< steps of the rock in a step of the water
+    bool                          is_explicit = false; ///< the dam takes the steps of the water
     WaterMesh                     far_mesh;
     std::unique_ptr<WaterModel>   far;    ///< one layer of the far channel
     std::unique_ptr<BaseMotion>   banks;  ///< motion of the banks relative to the ground motion, or null
@@ -123,6 +121,7 @@ namespace Voussoir
     std::vector<double>  far_inverse, far_pi, far_phi, far_mean; ///< as pi and phi; mean of pi in the step
     std::vector<double>  valley_place, valley_velocity; ///< last displacement [m] and mean velocity [m/s]
     std::vector<double>  pi, phi, K_phi, before;
+    std::vector<double>  mean;   ///< of pi at the dam in the step of the run
     std::vector<double>  u_wet;  ///< displacement of the dam at the last step, 3 per wet dam node [m]
     std::vector<double>  record; ///< step, energies: see acoustic_water.cc
     double               watch_total = 0.;

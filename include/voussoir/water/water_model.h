@@ -37,6 +37,7 @@ namespace Voussoir
     std::vector<std::complex<double>> solve(std::complex<double>                     s,
                                             const std::vector<std::complex<double>> &source) const;
 
+    const double         density;         ///< [kg/m^3]
     std::vector<double>  mass;            ///< M [kg s^2/m^2], with the increase for the time step
     std::vector<double>  bed_damping;     ///< C by absorption at bed and banks [kg s/m^2]
     std::vector<double>  end_damping;     ///< C by damping layer and dashpot [kg s/m^2]
