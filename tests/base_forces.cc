@@ -185,7 +185,8 @@ namespace
    * monolith; else of all together. */
   double momentum(const Scene &scene, const bool each, const double dt = .01, const unsigned int n = 40)
   {
-    Dam              dam(scene);
+    Dam dam(scene);
+    dam.set_damping(0.);
     const Whole      whole(scene);
     const BaseForces forces(dam);
     const Parts      parts(dam);
@@ -339,6 +340,16 @@ namespace
     scene.damping.model = "uniform";
     scene.damping.reference_frequency = 2.;
     below("uniform damping", momentum(scene, true), 1e-11);
+    HexMesh mesh = scene.hex_mesh();
+    mesh.zones.push_back("low");
+    for (HexMesh::Cell &cell : mesh.cells)
+      cell.zone = mesh.nodes[cell.nodes[0]][2] < 60. ? mesh.zones.size() - 1 : 0;
+    write_gmsh(mesh, "zones.msh");
+    Scene zoned = scene;
+    zoned.mesh.source = "file";
+    zoned.mesh.file = "zones.msh";
+    zoned.damping.zones = {{"low", "0.1"}};
+    below("zones with damping ratios of their own", momentum(zoned, true), 1e-11);
     scene.scheme = "explicit";
     below("explicit scheme with steps of its own", momentum(scene, true, .04), 1e-11);
     scene.scheme = "trapezoidal";

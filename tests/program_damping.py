@@ -8,9 +8,15 @@
 import json
 import math
 import re
+import sys
 from pathlib import Path
 
-from run_program import expect, refused, run_cases, runs, same, same_to_the_bit, settings, summary, table, voussoir, write, write_scene
+import numpy
+
+sys.path.insert(0, str(Path(__file__).resolve().parent / "golden"))
+import meshes  # noqa: E402
+from compare import scene  # noqa: E402
+from run_program import expect, refused, run_cases, runs, same, same_to_the_bit, settings, summary, table, voussoir, write, write_scene  # noqa: E402
 
 OFF = {"FJA": 2e-3, "FJB": 2e-3, "KSM": 2e-3, "cohesive": 2e-3, "mass": 2e-3, "lifts": 1e-2, "bonds": 1e-2, "massless": 2e-3, "rock": 2e-3,
        "water": 2e-3, "water_massless": 2e-3, "water_rock": 2e-3}
@@ -153,5 +159,56 @@ def pulse():
     expect(late < 1e-2 * early < 1e-3 * max(kinetic) and summary("rest")["energy_balance_error"] < 1e-9, "the dam does not come to rest")
 
 
+def decay(q):
+    """Damping ratio from the differences of successive extremes, in which a slow offset cancels."""
+    peaks = [b - ((c - a) / 4)**2 / ((a - 2 * b + c) / 2) for a, b, c in zip(q, q[1:], q[2:]) if (b - a) * (c - b) < 0]
+    decrement = math.log(abs(peaks[5] - peaks[4]) / abs(peaks[13] - peaks[12])) / 8
+    return decrement / math.hypot(math.pi, decrement)
+
+
+def zones():
+    """A bar with a foot of 8 % and a rest of 3 % decays as printed, and as the complex mode of two bodies with exactly these ratios. Zones
+    with equal ratios are uniform damping to the bit. A dam of zones with a joint: both schemes agree."""
+    n, n_foot, c, ratios, w = 8, 3, 160., (.08, .03), 4 * math.pi
+    nodes, hexes, quads = meshes.block(lambda i, j, k: (4. * j, 4. * i, 2.5 * k), (1,), 1, n, {**meshes.DAM, "right": None, "left": None})
+    meshes.write("bar.msh", nodes, [(101 if k < n_foot else 1, cell) for k, (_, cell) in enumerate(hexes)], quads, volumes={101: "monolith 1 foot", 1: "monolith 1"})
+    write("pulse.txt", "".join(f"{.0025 * k:.4f} 0 0 {math.sin(math.pi * k / 100) if k < 200 else 0:.9f}\n" for k in range(1601)))
+    damping = {"Model": "uniform", "Reference frequency": 2, "Ratio": ratios[1], "Zones": f"foot: {ratios[0]}"}
+    bar = scene("bar", "bar.msh", Concrete={"Young's modulus": 2500 * c**2}, Damping=damping, Motion={
+        "Source": "file", "File": "pulse.txt", "Unit": "m/s^2", "Duration": 4, "Time step": .0025, "Baseline": "none"})
+    parts = [numpy.zeros((n + 1, n + 1)) for _ in ratios]
+    for k in range(n):
+        parts[k >= n_foot][k:k + 2, k:k + 2] += (c / 2.5)**2 * numpy.array([[1, -1], [-1, 1]])
+    mass = numpy.diag([1.] * (n - 1) + [.5])
+    pole = 1j * w
+    for _ in range(30):  # lambda^2 M + sum K_z (lambda/w)^(2 g)/cos(pi g), where g = d/(pi/2 + d) gives free oscillations the ratio sin d
+        powers = [math.asin(z) / (math.pi / 2 + math.asin(z)) for z in ratios]
+        K = sum(K[1:, 1:] * (pole / w)**(2 * g) / math.cos(math.pi * g) for K, g in zip(parts, powers))
+        pole = 1j * numpy.sqrt(min(numpy.linalg.eigvals(numpy.linalg.solve(mass, K)), key=abs))
+    found = json.loads(runs("modes", bar, "--count", "6", "--json"))["modes"]
+    axial = min(found, key=lambda mode: abs(mode["frequency"] - 2.))
+    exact = -pole.real / abs(pole)
+    expect(abs(axial["damping"] / exact - 1.) < .03, f"ratio {axial} of the complex mode {exact}")
+    for name, more in (("trapezoidal", "Dynamics/Factors=double"), ("single", "Dynamics/Factors=single"), ("explicit", "Dynamics/Scheme=explicit")):
+        runs(bar, "--output", name, *settings(more))
+        titles, rows = table(f"{name}/history.csv")
+        ratio, error = decay([row[titles.index("crest_z")] for row in rows if row[0] > .6]), summary(name)["energy_balance_error"]
+        print(f"    {name}: ratio {ratio:.5f}, printed {axial['damping']:.5f}, exact {exact:.5f}, energy balance {error:.1e}")
+        expect(abs(ratio / axial["damping"] - 1.) < .02 and error < (1e-10 if name != "single" else 1e-6), f"{name}: ratio {ratio}, energy balance {error}")
+        for directory, entry in (("equal", "foot: 0.03"), ("none", "")):
+            runs(bar, "--output", directory, *settings(more, f"Damping/Zones={entry}"))
+        same_to_the_bit("equal", "none")
+    meshes.zoned_arch("arch.msh", (1, 1, 2, 2), 1, 3)
+    write_scene()
+    arch = scene("arch", "arch.msh", Concrete={"Young's modulus": 2e9}, Damping={**damping, "Zones": "heel: 0.08, crown: 0.02"}, Joints={"Model": "FJA"},
+                 Motion={"Source": "file", "File": "motion.txt", "Unit": "m/s^2", "Duration": 1, "Time step": .01})
+    runs(arch, "--output", "fine", *settings("Dynamics/Steps per sample=32", "Dynamics/Factors=double"))
+    runs(arch, "--output", "explicit_arch", *settings("Dynamics/Scheme=explicit", "Dynamics/Explicit step=0.0002", "Dynamics/Steps per sample=16"))
+    a, b = (summary(d)["extremes"]["max_opening"]["value"] for d in ("fine", "explicit_arch"))
+    errors = [summary(d)["energy_balance_error"] for d in ("fine", "explicit_arch")]
+    print(f"    arch: openings {a:.6f} and {b:.6f} m, energy balance {errors}")
+    expect(b > 1e-3 and abs(a / b - 1.) < 5e-3 and max(errors) < 1e-10, f"arch of zones: {a}, {b}, {errors}")
+
+
 if __name__ == "__main__":
-    run_cases(foundations, entries, modes, explicit, thrown, scaling, pulse)
+    run_cases(foundations, entries, modes, explicit, thrown, scaling, pulse, zones)

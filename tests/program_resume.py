@@ -6,8 +6,11 @@
 """
 
 import signal
+import sys
 from pathlib import Path
 
+sys.path.insert(0, str(Path(__file__).resolve().parent / "golden"))
+import meshes
 import program_base
 import program_gaps
 import program_wedges
@@ -72,6 +75,11 @@ def wedges(which):
     return [*program_wedges.write_wedges(), *every(20, "Motion/Duration=0.4", *program_wedges.RUNS[which])]
 
 
+def zoned(*entries):
+    meshes.zoned_arch("zoned.msh", (1, 1, 2, 2), 1, 3)
+    return asked(20, "Mesh/Source=file", "Mesh/File=zoned.msh", "Reservoir/Water level=50", "Damping/Model=uniform", "Damping/Zones=heel: 0.08, crown: 0.02", "Motion/Duration=1", *entries)
+
+
 BASE, GAPS = [*program_base.ARCH, *program_base.BASE], program_gaps.ARCH
 # case -> rows (settings or a function that returns them; signal; further check before --resume, or None)
 CASES = {
@@ -86,7 +94,8 @@ CASES = {
     "gaps": [([*GAPS, *asked(10, "Mesh/Arch210/Elements through=2")], ASKED, None)],
     "blocks": [(every(20, "Motion/Duration=0.4", "Limits/Base friction=1"), KILLED, None),
                ([*every(20, "Motion/Duration=0.4", "Limits/Base friction=1"), *ROCK], KILLED, None)],
-    "damping": [(every(20, "Damping/Model=uniform", f"Joints/Model={law}", "Motion/Duration=1"), KILLED, two_ranks) for law in ("FJA", "KSM")],
+    "damping": [(every(20, "Damping/Model=uniform", f"Joints/Model={law}", "Motion/Duration=1"), KILLED, two_ranks) for law in ("FJA", "KSM")]
+    + [(lambda: zoned("Dynamics/Factors=single"), KILLED, two_ranks), (lambda: zoned("Dynamics/Scheme=explicit"), ASKED, two_threads)],
     "explicit": [([*EXPLICIT, *asked(20, f"Joints/Model={law}", "Motion/Duration=1.5")], ASKED, two_threads) for law in ("FJA", "KSM", "cohesive")]
     + [([*EXPLICIT, *program_base.ARCH, *LIFTS, *asked(20, "Motion/Duration=0.6")], ASKED, two_threads)]
     + [([*EXPLICIT, *ROCK, *asked(20, f"Foundation/Model={model}", "Motion/Duration=0.5")], ASKED, two_threads) for model in ("massless", "rock")]

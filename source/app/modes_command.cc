@@ -142,8 +142,8 @@ namespace Voussoir
     };
 
     /** Returns the free-standing monolith, without modes if the dam has no contraction joints, or lift joints that divide
-     * its monoliths. */
-    FreeMonolith free_monolith(Scene scene, const std::vector<Joint> &joints, const Damping &damping)
+     * its monoliths. @p first_frequency: for Dam::set_damping() [Hz]. */
+    FreeMonolith free_monolith(Scene scene, const std::vector<Joint> &joints, const double first_frequency)
     {
       FreeMonolith result;
       const auto   has = [&](const std::string &kind)
@@ -164,7 +164,8 @@ namespace Voussoir
       scene.statics.self_weight = "none";
       if (scene.reservoir.is_meshed())
         scene.reservoir.model = "Westergaard";
-      const Dam                              dam(scene);
+      Dam dam(scene);
+      dam.set_damping(first_frequency);
       const Structure                       &all = dam.structure;
       std::vector<std::pair<double, double>> range(all.bodies.size(), {1e300, -1e300});
       for (unsigned int i = 0; i < dam.model->n_nodes(); ++i)
@@ -183,12 +184,13 @@ namespace Voussoir
                       all.mass.begin() + body.first_node + body.n_nodes());
       body.first_node = 0;
       one.plane_strain = all.plane_strain;
+      one.damping = all.damping;
       one.collect_interfaces();
       result.name = body.name();
       for (const NaturalMode &mode : natural_modes(one, 3))
       {
         result.frequency.push_back(mode.frequency);
-        result.ratio.push_back(damping.of_mode(2. * M_PI * mode.frequency).first);
+        result.ratio.push_back(one.damping.of_mode(2. * M_PI * mode.frequency, mode.scale(one)).first);
       }
       return result;
     }
@@ -293,6 +295,8 @@ namespace Voussoir
     if (scene.reservoir.is_meshed() && !spectrum_choice.empty())
       throw InputError("--spectrum has no " + scene.reservoir.model +
                        " water. Use --set Reservoir/Model=Westergaard.");
+    if (!spectrum_choice.empty() && scene.damping.is_uniform() && !scene.damping.zones.empty())
+      throw InputError("--spectrum has one damping ratio for all modes. Remove the entry \"Damping/Zones\".");
     std::optional<ChosenSpectrum> spectrum;
     if (!spectrum_choice.empty())
       spectrum = choose_spectrum(scene, spectrum_choice);
@@ -300,7 +304,7 @@ namespace Voussoir
       make_directory(directory);
     Log quiet(true);
     check_water_size(scene, 0., quiet);
-    const Dam dam(scene, true);
+    Dam dam(scene, true);
     for (const std::string &warning : dam.facts.warnings)
       std::cerr << "voussoir: warning: " << warning << "\n";
     std::vector<double> radiation;
@@ -308,9 +312,9 @@ namespace Voussoir
       std::cerr << "voussoir: warning: effective masses are those of the concrete, without the water.\n";
     const std::vector<NaturalMode> modes = modes_of(dam, count, radiation);
     const Table                    table = table_of(modes, radiation, dam.structure);
-    const ModesDamping             damping(scene.damping, modes, dam.structure);
-    const FreeMonolith             monolith =
-        free_monolith(scene, dam.layout.joints, scene.damping.law(modes[0].frequency));
+    dam.set_damping(modes[0].frequency);
+    const ModesDamping damping(scene.damping, modes, dam.structure);
+    const FreeMonolith monolith = free_monolith(scene, dam.layout.joints, modes[0].frequency);
     if (json)
       std::printf("%s\n", json_of(dam, table, damping, radiation, monolith).text().c_str());
     else

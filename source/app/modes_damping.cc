@@ -31,7 +31,7 @@ namespace Voussoir
 
   ModesDamping::ModesDamping(const DampingParameters &damping, const std::vector<NaturalMode> &modes,
                              const Structure &structure)
-      : damping(damping)
+      : damping(damping), law(structure.damping)
   {
     const double n_directions = structure.plane_strain ? 2. : 3.;
     for (const NaturalMode &mode : modes)
@@ -39,6 +39,7 @@ namespace Voussoir
       const Vector3 part = mode.mass_share(structure);
       const double  mean = (part[0] + part[1] + part[2]) / n_directions;
       frequency.push_back(mode.frequency);
+      scale.push_back(mode.scale(structure));
       is_heavy.push_back(*std::max_element(part.begin(), part.end()) >= heavy);
       if (share < heavy_share)
       {
@@ -46,12 +47,11 @@ namespace Voussoir
         ++n_modes;
       }
     }
-    law = damping.law(frequency.front());
   }
 
   double ModesDamping::ratio(const std::size_t mode) const
   {
-    return law.of_mode(2. * M_PI * frequency[mode]).first;
+    return law.of_mode(2. * M_PI * frequency[mode], scale[mode]).first;
   }
 
   std::pair<double, double> ModesDamping::proposal() const
@@ -63,7 +63,7 @@ namespace Voussoir
   std::string ModesDamping::in_words() const
   {
     if (damping.is_uniform())
-      return damping.in_words(frequency.front());
+      return damping.in_words(frequency.front(), law.zones);
     const auto [f1, f2] = proposal();
     const bool is_reached = share >= heavy_share;
     return text("proposal: Damping/Frequency 1 = %.3g, Frequency 2 = %.3g (", f1, f2) +

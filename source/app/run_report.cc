@@ -169,12 +169,13 @@ namespace Voussoir
     void report_damping(const Dam &dam, Log &log)
     {
       const std::vector<double> &f = dam.facts.frequencies;
-      log.line("Damping   %s", dam.scene.damping.in_words(f.empty() ? 0. : f[0]).c_str());
+      log.line("Damping   %s",
+               dam.scene.damping.in_words(f.empty() ? 0. : f[0], dam.structure.damping.zones).c_str());
       std::ostringstream moved;
       for (const double frequency : f)
         moved << (moved.tellp() > 0 ? ", " : "") << frequency << " Hz x "
               << std::round(1e4 * dam.structure.damping.of_mode(2. * M_PI * frequency).second) / 1e4;
-      if (!f.empty())
+      if (!f.empty() && !dam.structure.has_zones())
         log.line("          first modes of the tied dam, and factor by the damping: %s", moved.str().c_str());
     }
   } // namespace

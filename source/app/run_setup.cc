@@ -102,7 +102,7 @@ namespace Voussoir
         return;
       if (damping.needs_first_frequency())
         dam.facts.frequencies = first_frequencies(dam.scene);
-      dam.structure.damping = damping.law(dam.facts.frequencies.empty() ? 0. : dam.facts.frequencies[0]);
+      dam.set_damping(dam.facts.frequencies.empty() ? 0. : dam.facts.frequencies[0]);
       if (const std::string warning = damping.warning(); !warning.empty())
         dam.facts.warnings.push_back(warning);
     }

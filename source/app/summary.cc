@@ -113,6 +113,8 @@ namespace Voussoir
             .add("band_end", damping.band_end)
             .add("reference_frequency", damping.needs_first_frequency() ? first : damping.reference_frequency)
             .add("static_modulus", dam.structure.damping.modulus);
+        for (const Damping::Zone &zone : dam.structure.damping.zones)
+          json.add("ratio_" + (zone.name.empty() ? "rest" : zone.name), zone.ratio);
       }
       else
         json.add("frequency_1", damping.frequency_1)

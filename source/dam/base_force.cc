@@ -266,7 +266,7 @@ namespace Voussoir
   /** Adds the stiffness and the lumped mass of the cells at the supports. */
   void BaseForces::add_cells(Structure &whole)
   {
-    std::vector<std::map<unsigned int, std::array<double, 18>>> sums(of_block.size());
+    std::vector<std::map<unsigned int, std::array<double, 18>>> sums(of_block.size()), of_zones(sums);
     std::vector<types::global_dof_index>                        dofs(model.grid->fe.n_dofs_per_cell());
     CellElasticity elasticity(model.grid->fe, dam.scene.elements.incompatible_modes);
     for (const auto &cell : model.grid->dof_handler.active_cell_iterators())
@@ -275,7 +275,10 @@ namespace Voussoir
       const auto contributes = [&](const auto i) { return block[i] != rigid_ground && share[i] > 0.; };
       if (std::none_of(dofs.begin(), dofs.end(), contributes))
         continue;
-      elasticity.reinit(cell, model.material_of(cell->active_cell_index(), dam.materials));
+      const Material &material = model.material_of(cell->active_cell_index(), dam.materials);
+      elasticity.reinit(cell, material);
+      const double more =
+          model.material_of(cell->active_cell_index(), dam.damped).young / material.young - 1.;
       for (unsigned int i = 0; i < dofs.size(); ++i)
         if (const unsigned int b = block[dofs[i]]; contributes(dofs[i]))
         {
@@ -283,17 +286,23 @@ namespace Voussoir
           for (unsigned int c = 0; c < 3; ++c)
             whole.mass[model.equation[dofs[i]]][4 * c] += elasticity.mass[i];
           for (unsigned int j = 0; j < dofs.size(); ++j)
-            if (equation[dofs[j]] != rigid_ground)
-              add_block(sums[b][equation[dofs[j]]], arm,
-                        scaled_matrix(share[dofs[i]], elasticity.stiffness[i * dofs.size() + j]));
+            if (const unsigned int e = equation[dofs[j]]; e != rigid_ground)
+            {
+              const Matrix3 force = scaled_matrix(share[dofs[i]], elasticity.stiffness[i * dofs.size() + j]);
+              add_block(sums[b][e], arm, force);
+              if (more != 0.)
+                add_block(of_zones[b][e], arm, scaled_matrix(more, force));
+            }
         }
     }
+    zones.resize(sums.size());
     for (unsigned int b = 0; b < sums.size(); ++b)
-      for (const auto &[node, part] : sums[b])
-      {
-        stiffness[b].node.push_back(node);
-        stiffness[b].part.push_back(part);
-      }
+      for (const auto &[from, to] : {std::tie(sums[b], stiffness[b]), std::tie(of_zones[b], zones[b])})
+        for (const auto &[node, part] : from)
+        {
+          to.node.push_back(node);
+          to.part.push_back(part);
+        }
   }
 
   /** Adds the static loads and the added mass at the supports. */
@@ -360,6 +369,8 @@ namespace Voussoir
           u[c] += (damping - .5) * du[c] + (step.relaxation.empty() ? 0. : step.relaxation[3 * node + c]);
         add_product(result[b], stiffness[b].part[k], u);
       }
+      for (std::size_t k = 0; !step.relaxation.empty() && k < zones[b].node.size(); ++k)
+        add_product(result[b], zones[b].part[k], get(step.relaxation, zones[b].node[k]));
       for (std::size_t k = 0; moves && k < mass[b].node.size(); ++k)
       {
         const unsigned int node = mass[b].node[k];

@@ -112,11 +112,16 @@ namespace Voussoir
                                   scene.mesh.source == "file" ? "" : scene.mesh.section()});
     neighbours = {foundation.get()};
     const auto listed = zone_materials(scene.concrete_zones, "Concrete/Zones");
-    materials = materials_of(mesh.zones, scene.concrete, listed);
+    damped = materials = materials_of(mesh.zones, scene.concrete, listed);
     sustained = materials;
     for (Material &material : sustained)
       material.young *= scene.sustained_ratio();
     facts.concrete_zones = zones_of(mesh, false, scene.concrete, listed, "Concrete/Zones");
+    zone_names = mesh.zones;
+    std::map<std::string, Material> with_ratio;
+    for (const auto &zone : scene.damping.zone_ratios())
+      with_ratio[zone.first] = scene.concrete;
+    zones_of(mesh, false, scene.concrete, with_ratio, "Damping/Zones"); // throws InputError
     if (foundation->uses_rock())
       facts.rock_zones =
           zones_of(mesh, true, scene.foundation.rock, scene.foundation.zone_materials(), "Foundation/Zones");
@@ -306,6 +311,31 @@ namespace Voussoir
   {
     return scene.sustained_ratio() != 1. ||
            (foundation->uses_rock() && scene.foundation.sustained_ratio() != 1.);
+  }
+
+  void Dam::set_damping(const double first_frequency)
+  {
+    structure.damping = scene.damping.law(first_frequency, facts.concrete_zones);
+    bool differ = false;
+    for (const Damping::Zone &zone : structure.damping.zones)
+    {
+      differ |= zone.scale != 1.;
+      for (std::size_t i = 0; i < damped.size(); ++i)
+        if (zone_names[i] == zone.name)
+          damped[i].young = zone.scale * materials[i].young;
+    }
+    if (!differ)
+      return;
+    Structure scaled = assemble_structure(*model, damped, scene.elements.incompatible_modes);
+    for (std::size_t b = 0; b < structure.bodies.size(); ++b)
+    {
+      const BlockSparseMatrix &K = structure.bodies[b].stiffness; // with blocks for rock or water
+      std::vector<std::vector<unsigned int>> columns;
+      for (unsigned int row = 0; row < K.n_rows(); ++row)
+        columns.emplace_back(K.column.begin() + K.start[row], K.column.begin() + K.start[row + 1]);
+      structure.bodies[b].damped = std::move(scaled.bodies[b].stiffness);
+      structure.bodies[b].damped.extend(std::move(columns));
+    }
   }
 
   Structure Dam::sustained_structure() const

@@ -2,6 +2,7 @@
 #include <voussoir/base/entries.h>
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
+#include <voussoir/base/units.h>
 #include <voussoir/dam/scene.h>
 
 #include <algorithm>
@@ -43,6 +44,11 @@ namespace Voussoir
         "uniform: frequency at which Young's modulus is that of the input file [Hz]; it grows with the "
         "frequency. -1: first natural frequency of the tied dam with its water.",
         {-1., 20.}, Double(-1.));
+    prm.add_parameter(
+        "Zones", zones,
+        "uniform: damping ratios of dam zones [-], as \"NAME: ratio, NAME: ratio\", with the names of "
+        "\"Concrete/Zones\". The rest of the dam has \"Ratio\".",
+        dealii::Patterns::Map(dealii::Patterns::Anything(), dealii::Patterns::Anything()));
     prm.leave_subsection();
   }
 
@@ -64,6 +70,9 @@ namespace Voussoir
     };
     order("Frequency 1", frequency_1, "Frequency 2", frequency_2);
     order("Band begin", band_begin, "Band end", band_end);
+    if (!zone_ratios().empty() && !(ratio > 0.))
+      throw InputError("Entry \"Damping/Zones\" requires a damping ratio of the rest of the dam. Set "
+                       "\"Damping/Ratio\" to a number above 0.");
     if ((mass_coefficient >= 0.) != (stiffness_coefficient >= 0.))
       throw InputError(
           "Entries \"Damping/Mass coefficient\" and \"Stiffness coefficient\" are given together. Set the "
@@ -104,19 +113,58 @@ namespace Voussoir
     return Relaxation::of_ratio(ratio, band_begin, band_end, terms);
   }
 
-  Damping DampingParameters::law(const double first_frequency) const
+  std::map<std::string, double> DampingParameters::zone_ratios() const
+  {
+    std::map<std::string, double> ratios;
+    for (const auto &[zone, text] : zones)
+    {
+      const std::string what = "Entry \"Damping/Zones\": zone \"" + zone + "\"";
+      const double      value = number_in_unit(text, "-", what);
+      if (zone_name(zone).empty() || !(value > 0. && value <= largest_uniform) ||
+          !ratios.emplace(zone_name(zone), value).second)
+        throw InputError(what + " cannot have the damping ratio \"" + text +
+                         "\". Give each zone once, with a ratio above 0 and up to " +
+                         number_text(largest_uniform) + ", as in \"heel: 0.03\".");
+    }
+    return ratios;
+  }
+
+  Damping DampingParameters::law(const double first_frequency, const std::vector<Zone> &in_dam) const
   {
     if (!is_uniform())
       return {mass_factor(), stiffness_factor()};
     const double reference = reference_frequency > 0. ? reference_frequency : first_frequency;
     if (!(ratio > 0.) || !(reference > 0.))
       return Damping();
-    Relaxation result = relaxation();
-    result.unrelaxed = 1. / result.modulus(2. * M_PI * reference).real();
-    return Damping(result);
+    std::vector<Damping::Zone> found;
+    const auto                 ratios = zone_ratios();
+    double                     least = 1., most = 0.;
+    DampingParameters          mean = *this;
+    for (std::size_t i = 0; !ratios.empty() && i < in_dam.size(); ++i)
+    {
+      const auto own = ratios.find(in_dam[i].name);
+      found.push_back({in_dam[i].name, own == ratios.end() ? ratio : own->second, 1., {}});
+      least = std::min(least, found[i].ratio);
+      most = std::max(most, found[i].ratio);
+      mean.ratio = .5 * (least + most);
+    }
+    if (!found.empty())
+      mean.check(); // throws InputError if there is no fit
+    Relaxation fit = mean.relaxation();
+    fit.unrelaxed = 1. / fit.modulus(2. * M_PI * reference).real();
+    Damping result(fit);
+    for (Damping::Zone &zone : found)
+    {
+      if (least < most)
+        zone.scale = fit.scale_of(zone.ratio, band_begin, band_end);
+      zone.error = fit.scaled(zone.scale).error_of(zone.ratio, band_begin, band_end);
+    }
+    result.zones = found;
+    return result;
   }
 
-  std::string DampingParameters::in_words(const double first_frequency) const
+  std::string DampingParameters::in_words(const double                      first_frequency,
+                                          const std::vector<Damping::Zone> &in_dam) const
   {
     char line[200];
     if (!is_uniform())
@@ -129,11 +177,19 @@ namespace Voussoir
     }
     if (!(ratio > 0.))
       return "none";
-    const auto [least, most] = relaxation().error_of(ratio, band_begin, band_end);
-    std::snprintf(line, sizeof(line),
-                  "uniform, %.3g %% (%+.1f to %+.1f %% of it) from %g to %g Hz; modulus of ", 100. * ratio,
-                  100. * least, 100. * most, band_begin, band_end);
-    return line + std::string("the input file at ") +
+    std::vector<Damping::Zone> all = in_dam;
+    if (all.empty())
+      all = {{"", ratio, 1., relaxation().error_of(ratio, band_begin, band_end)}};
+    std::string text = "uniform";
+    for (const Damping::Zone &zone : all)
+    {
+      std::snprintf(line, sizeof(line), " %.3g %% (%+.1f to %+.1f %% of it)", 100. * zone.ratio,
+                    100. * zone.error.first, 100. * zone.error.second);
+      text += (zone.name.empty() ? "," : ", zone " + zone.name) + line;
+    }
+    std::snprintf(line, sizeof(line), " from %g to %g Hz; modulus of the input file at ", band_begin,
+                  band_end);
+    return text + line +
            (reference_frequency > 0. ? number_text(reference_frequency) + " Hz"
             : first_frequency > 0.
                 ? number_text(std::round(1e4 * first_frequency) / 1e4) + " Hz, the first frequency"

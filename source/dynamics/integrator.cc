@@ -39,7 +39,7 @@ namespace Voussoir
     now.load = load;
     now.force = force;
     structure.multiply_stiffness(now.u, now.Ku);
-    now.relaxation = structure.damping.memory_of(now.u, now.Ku);
+    now.relaxation = structure.damping.memory_of(now.u, now.Ku, structure.damped_force(now.u));
     account_states();
     const JointEnergy joints = joint_energy();
     now.energy.joint_stored = joints.stored;

@@ -60,15 +60,17 @@ namespace Voussoir
     std::vector<double> mass; // without the added mass: the frequency is an upper bound
     for (std::size_t i = 0; i < structure.n_nodes(); ++i)
       mass.push_back(mass_of(structure, without, i));
-    const auto multiply = [&](const double *x, double *y)
-    {
-      Unknowns Ku;
-      structure.multiply_stiffness(Unknowns(x, x + 3 * mass.size()), Ku);
-      std::copy(Ku.begin(), Ku.end(), y);
-    };
     double stiffest = structure.damping.modulus;
     for (const double c : structure.damping.c)
       stiffest += structure.damping.modulus * c;
+    const auto multiply = [&](const double *x, double *y)
+    {
+      Unknowns       Ku;
+      const Unknowns u(x, x + 3 * mass.size()), damped = structure.damped_force(u);
+      structure.multiply_stiffness(u, Ku);
+      for (std::size_t k = 0; k < Ku.size(); ++k)
+        y[k] = damped.empty() ? Ku[k] : (Ku[k] + (stiffest - 1.) * damped[k]) / stiffest;
+    };
     CriticalStep                                        result;
     const std::function<void(const double *, double *)> product = multiply;
     result.length = 2. / (largest_frequency(product, mass, &result.node) * std::sqrt(stiffest));
@@ -406,9 +408,10 @@ namespace Voussoir
       u[k] = now.u[k] + h * next[k];
     Stopwatch clock;
     stiffness.multiply(u, Ku);
+    const Unknowns damped = structure.damped_force(u);
     spent.substitutions += clock.seconds();
     const Damping::Energies relaxed =
-        structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation);
+        structure.damping.advance_leapfrog(h, now.u, now.Ku, u, Ku, now.relaxation, damped);
     work.input += works[0];
     work.damping += works[1] + relaxed.dissipated;
     double outside = relaxed.stored;

@@ -14,6 +14,7 @@
 #include <cmath>
 #include <complex>
 #include <functional>
+#include <numeric>
 
 namespace Voussoir
 {
@@ -48,6 +49,17 @@ namespace Voussoir
       if (whole[d] > 0.)
         share[d] = factor[d] * factor[d] / whole[d];
     return share;
+  }
+
+  double NaturalMode::scale(const Structure &structure) const
+  {
+    const Unknowns damped = structure.damped_force(shape);
+    if (damped.empty())
+      return 1.;
+    Unknowns Ku;
+    structure.multiply_stiffness(shape, Ku);
+    return std::inner_product(shape.begin(), shape.end(), damped.begin(), 0.) /
+           std::inner_product(shape.begin(), shape.end(), Ku.begin(), 0.);
   }
 
 #ifndef VOUSSOIR_WITH_ARPACK

@@ -33,6 +33,8 @@ namespace Voussoir
   {
     if (structure.damping.mass != 0. || structure.damping.stiffness != 0.)
       return "the damping is not uniform";
+    if (structure.has_zones())
+      return "zones have damping ratios of their own";
     if (structure.damping.c.size() > BatchView::most_terms)
       return "the damping has more than " + std::to_string(BatchView::most_terms) + " terms";
     if (!clusters_of(structure.pairs).empty())

@@ -180,7 +180,8 @@ namespace Voussoir
     structure.add_reaction(-1., change, load);
     structure.multiply_stiffness(u_new, Ku);
     equation->carry(now, dt, u_new, Ku);
-    work.damping = structure.damping.advance(dt, now.u, now.Ku, u_new, Ku, now.relaxation);
+    work.damping = structure.damping.advance(dt, now.u, now.Ku, u_new, Ku, now.relaxation,
+                                             structure.damped_force(u_new));
     Vector3 base; // mean velocity of the base
     for (unsigned int c = 0; c < 3; ++c)
       base[c] = .5 * (now.base_velocity[c] + step.base_velocity[c]);
@@ -255,7 +256,7 @@ namespace Voussoir
       {
         const std::size_t k = 3 * i + c;
         result[k] = now.load[k] - structure.damping.mass * momentum[c] - structure.damping.stiffness * Kv[k] -
-                    now.Ku[k] - structure.damping.more_force(now.relaxation, now.Ku[k], k) -
+                    now.Ku[k] - structure.damping.more_force(now.relaxation, now.Ku, k) -
                     (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
       }
     }

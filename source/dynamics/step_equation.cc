@@ -6,8 +6,9 @@ namespace Voussoir
 {
   StepOperator trapezoidal_rule(const Structure &structure, const double dt, const double share)
   {
-    return {4. / (dt * dt) + 2. / dt * structure.damping.mass, 1. + structure.damping.more_stiffness(dt),
-            2. / dt, share, 1.};
+    StepOperator A{4. / (dt * dt) + 2. / dt * structure.damping.mass, 1., 2. / dt, share, 1.};
+    (structure.has_zones() ? A.damped : A.stiffness) += structure.damping.more_stiffness(dt);
+    return A;
   }
 
   Unknowns StepEquation::known_forces(const DynamicState &now, const StepLoad &step, const double c_m,
@@ -60,8 +61,12 @@ namespace Voussoir
                           const Joints &joints) override
       {
         const double dt = step.dt;
+        const double more = structure.damping.more_stiffness(dt);
+        const auto  &damped = now.relaxation.Ku; // empty without zones
         Unknowns     rhs = known_forces(now, step, 4. / (dt * dt) + 2. / dt * structure.damping.mass,
-                                        structure.damping.more_stiffness(dt) - 1.);
+                                        (damped.empty() ? more : 0.) - 1.);
+        for (std::size_t k = 0; k < damped.size(); ++k)
+          rhs[k] += more * damped[k];
         for (std::size_t k = 0; k < structure.dashpots.size(); ++k)
           rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
         structure.add_reaction(1., now.u, rhs);
@@ -142,6 +147,9 @@ namespace Voussoir
           }
         }
         structure.add_reaction(A.reaction, carried.moved, carried.resisted);
+        const Unknowns damped = structure.damped_force(carried.moved);
+        for (std::size_t k = 0; k < damped.size(); ++k)
+          carried.resisted[k] += A.damped * damped[k];
         for (std::size_t k = 0; k < rhs.size(); ++k)
           carried.residual[k] = .5 * dt * (rhs[k] - carried.resisted[k]);
       }

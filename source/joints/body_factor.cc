@@ -62,6 +62,8 @@ namespace Voussoir
               {
                 double            a = step.stiffness * K.value[e][3 * i + j];
                 const std::size_t node = body.first_node + row;
+                if (step.damped != 0.)
+                  a += step.damped * body.damped.value[e][3 * i + j];
                 if (!body.reaction.empty())
                   a += step.reaction * body.reaction[e][3 * i + j];
                 if (K.column[e] == row)

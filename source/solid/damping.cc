@@ -154,6 +154,26 @@ namespace Voussoir
     return unrelaxed * result;
   }
 
+  Relaxation Relaxation::scaled(const double scale) const
+  {
+    Relaxation result = *this;
+    result.unrelaxed = 1. - scale + scale * unrelaxed;
+    for (double &y : result.weight)
+      y *= scale * unrelaxed / result.unrelaxed;
+    return result;
+  }
+
+  double Relaxation::scale_of(const double ratio, const double lowest, const double highest) const
+  {
+    double scale = 1.;
+    for (unsigned int pass = 0; pass < 20; ++pass)
+    {
+      const auto error = scaled(scale).error_of(ratio, lowest, highest);
+      scale /= 1. + .5 * (error.first + error.second);
+    }
+    return scale;
+  }
+
   std::complex<double> Relaxation::pole(const double w) const
   {
     const std::complex<double> i(0., 1.);
@@ -175,7 +195,7 @@ namespace Voussoir
     return result;
   }
 
-  Damping::Damping(const Relaxation &law) : law(law)
+  Damping::Damping(const Relaxation &relaxation) : law(relaxation)
   {
     modulus = law.unrelaxed;
     for (const double y : law.weight)
@@ -195,21 +215,21 @@ namespace Voussoir
     return 2. / dt * stiffness + (factor - 1.);
   }
 
-  DampingMemory Damping::memory_of(const Unknowns &u, const Unknowns &Ku) const
+  DampingMemory Damping::memory_of(const Unknowns &u, const Unknowns &Ku, const Unknowns &damped) const
   {
-    const Unknowns zero(u.size(), 0.);
-    return relaxes() ? DampingMemory{u, Ku, std::vector<Unknowns>(c.size(), zero),
-                                     std::vector<Unknowns>(c.size(), zero), zero}
+    const std::vector<Unknowns> zeros(c.size(), Unknowns(u.size(), 0.));
+    return relaxes() ? DampingMemory{u, damped.empty() ? Ku : damped, zeros, zeros, zeros[0], damped}
                      : DampingMemory();
   }
 
   void Damping::add_known_forces(const double dt, const DampingMemory &memory, const Unknowns &Ku,
                                  Unknowns &rhs) const
   {
-    const int n = relaxes() ? rhs.size() : 0;
+    const int       n = relaxes() ? rhs.size() : 0;
+    const Unknowns &damped = memory.damped(Ku);
 #pragma omp parallel for schedule(static)
     for (int k = 0; k < n; ++k)
-      rhs[k] += 2. * (1. - modulus) * (Ku[k] - memory.Ku_static[k]);
+      rhs[k] += 2. * (1. - modulus) * (damped[k] - memory.Ku_static[k]);
     for (std::size_t l = 0; l < c.size(); ++l)
     {
       const double factor = modulus * c[l] * (1. + StepOfMechanism(dt, tau[l]).kept);
@@ -220,11 +240,12 @@ namespace Voussoir
   }
 
   double Damping::advance(const double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
-                          const Unknowns &Ku, DampingMemory &memory) const
+                          const Unknowns &Ku, DampingMemory &memory, Unknowns damped) const
   {
     if (!relaxes())
       return 0.;
-    const auto advance_values = [&](const std::size_t begin, const std::size_t end)
+    const Unknowns &before = memory.damped(Ku_old), &after = damped.empty() ? Ku : damped;
+    const auto      advance_values = [&](const std::size_t begin, const std::size_t end)
     {
       double dissipated = 0.;
       for (std::size_t k = begin; k < end; ++k)
@@ -236,7 +257,7 @@ namespace Voussoir
         for (std::size_t k = begin; k < end; ++k)
         {
           const double d = s.kept * memory.d[l][k] + s.added * (u[k] - u_old[k]),
-                       Kd = s.kept * memory.Kd[l][k] + s.added * (Ku[k] - Ku_old[k]);
+                       Kd = s.kept * memory.Kd[l][k] + s.added * (after[k] - before[k]);
           const double mean = .5 * (memory.d[l][k] + d);
           dissipated += share * s.half * mean * (memory.Kd[l][k] + Kd);
           memory.mean[k] += share * mean;
@@ -246,30 +267,34 @@ namespace Voussoir
       }
       return std::array<double, 1>{{dissipated}};
     };
-    return sum_of_ranges<std::array<double, 1>>(u.size(), advance_values)[0];
+    const double dissipated = sum_of_ranges<std::array<double, 1>>(u.size(), advance_values)[0];
+    memory.Ku.swap(damped);
+    return dissipated;
   }
 
   Damping::Energies Damping::advance_leapfrog(const double dt, const Unknowns &u_old, const Unknowns &Ku_old,
-                                              const Unknowns &u, const Unknowns &Ku,
-                                              DampingMemory &memory) const
+                                              const Unknowns &u, const Unknowns &Ku, DampingMemory &memory,
+                                              Unknowns damped) const
   {
     if (!relaxes())
       return {0., 0.};
-    const auto advance_values = [&](const std::size_t begin, const std::size_t end)
+    const Unknowns &before = memory.damped(Ku_old), &after = damped.empty() ? Ku : damped;
+    const auto      advance_values = [&](const std::size_t begin, const std::size_t end)
     {
       std::array<double, 2> sums = {
           {-.5 * (1. - modulus) *
-               product_of_changes(&u_old[begin], &memory.u_static[begin], &Ku[begin],
+               product_of_changes(&u_old[begin], &memory.u_static[begin], &after[begin],
                                   &memory.Ku_static[begin], end - begin),
            0.}};
       for (std::size_t l = 0; l < c.size(); ++l)
-        advance_mechanism(
-            dt / tau[l], .5 * modulus * c[l],
-            {&u_old[begin], &Ku_old[begin], &u[begin], &Ku[begin], &memory.d[l][begin], &memory.Kd[l][begin]},
-            end - begin, sums);
+        advance_mechanism(dt / tau[l], .5 * modulus * c[l],
+                          {&u_old[begin], &before[begin], &u[begin], &after[begin], &memory.d[l][begin],
+                           &memory.Kd[l][begin]},
+                          end - begin, sums);
       return sums;
     };
     const auto sums = sum_of_ranges<std::array<double, 2>>(u.size(), advance_values);
+    memory.Ku.swap(damped);
     return {sums[0], sums[1]};
   }
 
@@ -277,12 +302,13 @@ namespace Voussoir
   {
     if (!relaxes())
       return 0.;
-    const auto energy = [&](const std::size_t begin, const std::size_t end)
+    const Unknowns &damped = memory.damped(Ku);
+    const auto      energy = [&](const std::size_t begin, const std::size_t end)
     {
       double sum = 0.;
       for (std::size_t k = begin; k < end; ++k)
       {
-        sum -= .5 * (1. - modulus) * (u[k] - memory.u_static[k]) * (Ku[k] - memory.Ku_static[k]);
+        sum -= .5 * (1. - modulus) * (u[k] - memory.u_static[k]) * (damped[k] - memory.Ku_static[k]);
         for (std::size_t l = 0; l < c.size(); ++l)
           sum += .5 * modulus * c[l] * memory.d[l][k] * memory.Kd[l][k];
       }
@@ -295,8 +321,9 @@ namespace Voussoir
                         const std::size_t begin, const std::size_t end, double *w, double *Kw) const
   {
     const std::size_t n = end - begin;
+    const Unknowns   &damped = memory.damped(Ku);
     std::copy_n(u.begin() + begin, n, w);
-    std::copy_n(Ku.begin() + begin, n, Kw);
+    std::copy_n(damped.begin() + begin, n, Kw);
     if (!relaxes())
       return;
     const double  kept = modulus, rest = 1. - modulus;
@@ -318,23 +345,25 @@ namespace Voussoir
         Kw[k] += share * Kd[k];
       }
     }
+    for (std::size_t k = 0; &damped != &Ku && k < n; ++k)
+      Kw[k] += Ku[begin + k] - damped[begin + k];
   }
 
-  double Damping::more_force(const DampingMemory &memory, const double Ku, const std::size_t k) const
+  double Damping::more_force(const DampingMemory &memory, const Unknowns &Ku, const std::size_t k) const
   {
     if (!relaxes())
       return 0.;
-    double force = (modulus - 1.) * (Ku - memory.Ku_static[k]);
+    double force = (modulus - 1.) * (memory.damped(Ku)[k] - memory.Ku_static[k]);
     for (std::size_t l = 0; l < c.size(); ++l)
       force += modulus * c[l] * memory.Kd[l][k];
     return force;
   }
 
-  std::pair<double, double> Damping::of_mode(const double w) const
+  std::pair<double, double> Damping::of_mode(const double w, const double scale) const
   {
     if (!relaxes())
       return {.5 * (mass / w + stiffness * w), 1.};
-    const std::complex<double> pole = law.pole(w);
+    const std::complex<double> pole = law.scaled(scale).pole(w);
     return {ratio_of(pole), std::abs(pole) / w};
   }
 } // namespace Voussoir

@@ -72,15 +72,25 @@ namespace Voussoir
     return static_cast<unsigned int>(after - 1 - bodies.begin());
   }
 
-  void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku) const
+  void Structure::multiply_stiffness(const Unknowns &u, Unknowns &Ku,
+                                     BlockSparseMatrix Body::*const matrix) const
   {
     assert(u.size() == 3 * std::size_t(n_nodes()));
     Ku.resize(u.size());
     for (unsigned int b = 0; b < bodies.size(); ++b)
       if (share.is_mine(b))
-        bodies[b].stiffness.multiply(u.data() + 3 * std::size_t(bodies[b].first_node),
-                                     Ku.data() + 3 * std::size_t(bodies[b].first_node));
+        (bodies[b].*matrix)
+            .multiply(u.data() + 3 * std::size_t(bodies[b].first_node),
+                      Ku.data() + 3 * std::size_t(bodies[b].first_node));
     gather(Ku);
+  }
+
+  Unknowns Structure::damped_force(const Unknowns &u) const
+  {
+    Unknowns force;
+    if (has_zones())
+      multiply_stiffness(u, force, &Body::damped);
+    return force;
   }
 
   void Structure::add_reaction(const double factor, const Unknowns &u, Unknowns &y) const

@@ -17,7 +17,7 @@ namespace Voussoir
   public:
     /** @param damping section "Damping" of the scene
      * @param modes lowest natural modes, by ascending frequency; at least one
-     * @param structure structure of the modes */
+     * @param structure structure of the modes, with their damping */
     ModesDamping(const DampingParameters &damping, const std::vector<NaturalMode> &modes,
                  const Structure &structure);
 
@@ -42,6 +42,7 @@ namespace Voussoir
     const DampingParameters damping;
     Damping                 law;
     std::vector<double>     frequency; ///< of each mode [Hz]
+    std::vector<double>     scale;     ///< NaturalMode::scale()
     std::vector<bool>       is_heavy;  ///< at least 1 % of the effective mass in a direction
     double      share = 0.;            ///< of the effective mass that the significant modes have together [-]
     std::size_t n_modes = 0;           ///< number of lowest modes with 80 % of the effective mass, or all

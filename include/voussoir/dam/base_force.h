@@ -105,10 +105,11 @@ namespace Voussoir
     void         find_lone_pairs(const std::vector<double> &joint_water, const BasePart *part);
     void         add_crack_water(const Pair &pair, double force);
 
-    const Dam                          &dam;
-    SolidModel                         &model;
-    std::vector<BlockBase>              of_block;
-    std::vector<NodalSum>               stiffness, mass;
+    const Dam             &dam;
+    SolidModel            &model;
+    std::vector<BlockBase> of_block;
+    std::vector<NodalSum>  stiffness, mass;
+    std::vector<NodalSum>  zones; ///< stiffness for StepOfDam::relaxation minus #stiffness, of Damping::zones
     std::vector<std::array<double, 18>> held_mass; ///< of fixed nodes
     std::vector<Wrench>                 constant;  ///< of the loads
     std::vector<unsigned int>           equation;  ///< of the nodes of the model in the dam

@@ -63,9 +63,14 @@ namespace Voussoir
     /** Returns the structure of the static state: #structure with the sustained moduli. */
     Structure sustained_structure() const;
 
-    const Scene          &scene;     ///< input file
-    std::vector<Material> materials; ///< of the concrete, one per entry of HexMesh::zones
-    std::vector<Material> sustained; ///< the same materials with the moduli of the static state
+    /** Sets the damping of the structure, for the first frequency of the tied dam [Hz], see DampingParameters::law(). */
+    void set_damping(double first_frequency);
+
+    const Scene             &scene;      ///< input file
+    std::vector<std::string> zone_names; ///< HexMesh::zones
+    std::vector<Material>    materials;  ///< of the concrete, one per entry of HexMesh::zones
+    std::vector<Material>    damped;     ///< the same materials for Body::damped
+    std::vector<Material>    sustained;  ///< the same materials with the moduli of the static state
 
     DamFacts    facts;  ///< for log and reports
     JointLayout layout; ///< joints and their laws

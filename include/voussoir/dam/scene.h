@@ -40,22 +40,27 @@ namespace Voussoir
     double      ratio = .05, frequency_1 = 1.2, frequency_2 = 6.; ///< [-], [Hz], [Hz]
     double      mass_coefficient = -1., stiffness_coefficient = -1.;   ///< [1/s], [s]; -1: from the ratio
     double band_begin = .5, band_end = 20., reference_frequency = -1.; ///< [Hz]; -1: first natural frequency
-    unsigned int terms = 3;                                            ///< mechanisms of uniform damping
-    void         add_parameters(Entries &prm);
-    void         check() const;
-    void         add_choices(ModelChoices &choices) const;
-    bool         is_uniform() const { return model == "uniform" || (model == "automatic" && with_explicit); }
+    unsigned int                       terms = 3;                      ///< mechanisms of uniform damping
+    std::map<std::string, std::string> zones; ///< uniform: ratios of zones of the dam
+    void                               add_parameters(Entries &prm);
+    void                               check() const;
+    void                               add_choices(ModelChoices &choices) const;
+    bool   is_uniform() const { return model == "uniform" || (model == "automatic" && with_explicit); }
     bool   needs_first_frequency() const { return is_uniform() && ratio > 0. && reference_frequency < 0.; }
     double mass_factor() const;      ///< a of Rayleigh damping [1/s]
     double stiffness_factor() const; ///< b of Rayleigh damping [s]
     Relaxation relaxation() const;   ///< fit of uniform damping; without weights if there is none
 
-    /** Returns the damping of the dam. @p first_frequency: of the tied dam with its water [Hz], or 0: without this
-     * frequency, uniform damping that needs it is left out. */
-    Damping law(double first_frequency = 0.) const;
+    /** Returns the ratios of #zones by zone_name() [-]. Throws InputError for an invalid ratio or name. */
+    std::map<std::string, double> zone_ratios() const;
 
-    /** Returns the damping in words. @p first_frequency as in law(). */
-    std::string in_words(double first_frequency) const;
+    /** Returns the damping of the dam. @p first_frequency: of the tied dam with its water [Hz], or 0: without this
+     * frequency, uniform damping that needs it is left out. @p in_dam: zones of the dam. If their ratios differ, the fit
+     * is that of the mean of the smallest and the largest one. */
+    Damping law(double first_frequency = 0., const std::vector<Zone> &in_dam = {}) const;
+
+    /** Returns the damping in words. @p first_frequency as in law(); @p zones: Damping::zones. */
+    std::string in_words(double first_frequency, const std::vector<Damping::Zone> &zones = {}) const;
 
     /** Returns a warning if the ratio differs by more than 5 % in its band, or an empty string. */
     std::string warning() const;

@@ -18,6 +18,9 @@ namespace Voussoir
      * squares are the effective masses. The effective masses of all modes add up to free_mass(). */
     Vector3 participation(const Structure &structure) const;
 
+    /** Returns the mean scale of Damping::zones, weighted by the strain energy [-]. */
+    double scale(const Structure &structure) const;
+
     /** Returns the effective masses relative to free_mass() [-]; 0 along y in plane strain. */
     Vector3 mass_share(const Structure &structure) const;
   };

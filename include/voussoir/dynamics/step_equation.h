@@ -20,8 +20,8 @@ namespace Voussoir
    * @param dt length of the step [s]
    * @param share 2 if the joint forces are means over the step, 1 if they are forces at its end [-]
    *
-   * The factors are 4/dt^2 + 2/dt a_0 for M, 1 + Damping::more_stiffness() for K (1 + 2/dt a_1 without mechanisms), and 2/dt
-   * for the dashpots. */
+   * The factors are 4/dt^2 + 2/dt a_0 for M, 1 + Damping::more_stiffness() for K (1 + 2/dt a_1 without mechanisms; with
+   * Damping::zones its second part for K_c), and 2/dt for the dashpots. */
   StepOperator trapezoidal_rule(const Structure &structure, double dt, double share);
 
   /** Equation of a step by the trapezoidal rule: the sum of the equations of motion at both ends, in which the

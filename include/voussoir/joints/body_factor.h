@@ -11,8 +11,8 @@ namespace Voussoir
 {
   class PackedFactor;
 
-  /** Linear system of a step: A u = load + share G^T f with A = mass M + stiffness K + dashpot D + reaction E +
-   * springs, and the joint forces f. A static system has the mass 0. */
+  /** Linear system of a step: A u = load + share G^T f with A = mass M + stiffness K + damped K_c + dashpot D +
+   * reaction E + springs, and the joint forces f. A static system has the mass 0. */
   struct StepOperator
   {
     double mass = 0.;      ///< factor of the mass matrix M [1/s^2]
@@ -24,6 +24,8 @@ namespace Voussoir
 
     /** Additional factor of the mass matrix in a static system whose bodies only the joints hold [1/s^2]. */
     double proximal = 0.;
+
+    double damped = 0.; ///< factor of the matrix K_c of Damping, Body::damped [-]
 
     bool has_mean_forces() const { return share != 1.; } ///< true if f are means over the step
   };

@@ -16,6 +16,7 @@ namespace Voussoir
     int               number = 0;     ///< physical id of its (first) block
     unsigned int      first_node = 0; ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
     BlockSparseMatrix stiffness;      ///< [N/m], free nodes only
+    BlockSparseMatrix damped;         ///< K_c of Damping [N/m], on the same pattern; empty: K_c = K
 
     /** Reaction of the water to a change of the displacement in a time step [N/m], on the pattern of the stiffness;
      * empty: none. The force of the water at the end of the step is the load minus the reaction times the change. */
@@ -94,8 +95,15 @@ namespace Voussoir
     /** Returns the index of the body that contains a node. */
     unsigned int body_of(unsigned int node) const;
 
-    /** Computes stiffness times displacement for all bodies [N]. */
-    void multiply_stiffness(const Unknowns &u, Unknowns &Ku) const;
+    /** Computes stiffness, or another @p matrix, times displacement for all bodies [N]. */
+    void multiply_stiffness(const Unknowns &u, Unknowns &Ku,
+                            BlockSparseMatrix Body::*matrix = &Body::stiffness) const;
+
+    /** Returns true if zones of the dam have different damping ratios. */
+    bool has_zones() const { return !bodies.empty() && bodies[0].damped.n_rows() > 0; }
+
+    /** Returns K_c u of Damping [N], or an empty vector if K_c is K. */
+    Unknowns damped_force(const Unknowns &u) const;
 
     /** Adds @p factor times the reaction of the water (Body::reaction) to @p u, to y [N]. */
     void add_reaction(double factor, const Unknowns &u, Unknowns &y) const;
