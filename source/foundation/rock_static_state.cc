@@ -239,10 +239,9 @@ namespace Voussoir
       message
           << "The static state of dam and rock did not converge: relative error " << error << " (limit "
           << enough << ") after " << round
-          << " iterations. Check \"Foundation/Young's modulus\", \"Foundation/Poisson's ratio\" and "
-             "\"Foundation/Zones\", and the quality of the rock elements (`voussoir mesh`). Blocks that slide or open at "
-             "base or lift joints without self-weight can have no unique state: set \"Statics/Self-weight\" to staged, or "
-             "bond these joints (\"Joints/Overrides\" = base: tied, lift: tied).";
+          << " iterations. Check the entries of the section Foundation and the quality of the rock elements "
+             "(`voussoir mesh`). Blocks that slide or open without self-weight can have no unique state: bond base and "
+             "lift joints (\"Joints/Overrides\" = base: tied, lift: tied).";
       throw ComputationError(message.str());
     }
     for (std::size_t k = 0; k < r.size(); ++k)
