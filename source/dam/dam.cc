@@ -328,14 +328,7 @@ namespace Voussoir
       return;
     Structure scaled = assemble_structure(*model, damped, scene.elements.incompatible_modes);
     for (std::size_t b = 0; b < structure.bodies.size(); ++b)
-    {
-      const BlockSparseMatrix &K = structure.bodies[b].stiffness; // with blocks for rock or water
-      std::vector<std::vector<unsigned int>> columns;
-      for (unsigned int row = 0; row < K.n_rows(); ++row)
-        columns.emplace_back(K.column.begin() + K.start[row], K.column.begin() + K.start[row + 1]);
       structure.bodies[b].damped = std::move(scaled.bodies[b].stiffness);
-      structure.bodies[b].damped.extend(std::move(columns));
-    }
   }
 
   Structure Dam::sustained_structure() const
