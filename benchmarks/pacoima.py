@@ -80,7 +80,7 @@ def draw(rows, file):
                 side = -1 if marker == "o" else 1
                 axes.annotate(f"{ratio:.1f} %", (frequency, i), (7 * side, 0), textcoords="offset points", ha="right" if side < 0 else "left",
                               va="center", fontsize=8)
-    axes.set(xlabel="frequency of the first (circle) and second mode [Hz], damping ratio [%]", xlim=(4, 6), ylim=(-.5, len(rows) - .3))
+    axes.set(xlabel="frequency of modes 1 (circle) and 2 [Hz]", xlim=(4, 6), ylim=(-.5, len(rows) - .3))
     axes.set_yticks(range(len(rows)), reversed(rows))
     axes.grid(alpha=.3)
     figure.savefig(file, dpi=110)
