@@ -23,8 +23,7 @@ namespace Voussoir
 {
   namespace
   {
-    /** Returns the first bodies without a node on the base, such as "monolith 2, monolith 3", or an empty string.
-     * @param lifts false: a lift needs no such node if another lift of its monolith has one */
+    /** Names the first bodies without base nodes, such as "monolith 2"; @p lifts false: of monoliths without any. */
     std::string bodies_without_base(const SolidModel &model, const bool lifts)
     {
       const auto part = [&](const unsigned int b)
