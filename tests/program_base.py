@@ -112,6 +112,29 @@ def uplift():
     expect(abs(safety / exact - 1) < 1e-4, f"safety {safety} instead of {exact}")
 
 
+def pressure():
+    """A slice between two equal levels of a dense liquid has the same pressure p everywhere below its base: the joint, on a linear
+    bed, carries W/A - p, and the block has no equilibrium once p A exceeds its weight W."""
+    width, height, level, stiffness = 4., 10., 5., 1e10
+    section("pressed.msh", width, width, height, 8, 10)
+    for share in (.5, .99, 1.01):
+        density = 2400 * share * height / level
+        more = {"joints": {"Friction": 1, "Normal stiffness": f"{stiffness:g}", "Tangential stiffness": "1e10"},
+                "Reservoir": {"Water level": level, "Density": density, "Model": "none"}}
+        entries = settings("Mesh/Plane strain=true", "Loads/Uplift/Base=true", f"Loads/Tail water/Level={level}", f"Loads/Tail water/Density={density}")
+        if share > 1:
+            stopped = run_program.voussoir(scene("lifted", "pressed.msh", **sections(more)), "--output", "lifted", *entries)
+            expect(stopped.returncode == 1 and "no equilibrium: monolith 1" in stopped.stderr, f"lifted: {stopped.stderr}")
+            continue
+        block(f"pressed{share}", "pressed.msh", *entries, **more)
+        (header, rows), (names, values) = (table(f"pressed{share}/{name}.csv") for name in ("joint_pressures", "joint_history"))
+        exact = (1 - share) * 2400 * G * height
+        carried = rows[0][header.index("mean_pressure")]
+        ends = [-stiffness * values[0][names.index(f"opening_{end}_1")] for end in ("upstream", "downstream")]
+        print(f"    pressure of {share} times the weight: the base carries {carried:.3f} Pa, {ends} at its ends, exact {exact:.3f} Pa")
+        expect(max(abs(x - exact) for x in (carried, *ends)) < 5e-5 * 2400 * G * height, f"{carried}, {ends} instead of {exact} Pa")
+
+
 def slice_at_rest():
     """A slice in plane strain under its staged weight has no displacement along y, and its base carries the weight."""
     section("slice.msh", 8., 2., 10., 8, 8)
@@ -437,4 +460,4 @@ def same_to_the_bit_but_joints(a, b):
 
 
 if __name__ == "__main__":
-    run_cases(crack, uplift, slice_at_rest, slide, rock, on_rock, rock_water, rock_edges, arch, stages)
+    run_cases(crack, uplift, pressure, slice_at_rest, slide, rock, on_rock, rock_water, rock_edges, arch, stages)

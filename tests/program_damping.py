@@ -198,16 +198,18 @@ def zones():
         for directory, entry in (("equal", "foot: 0.03"), ("none", "")):
             runs(bar, "--output", directory, *settings(more, f"Damping/Zones={entry}"))
         same_to_the_bit("equal", "none")
-    meshes.zoned_arch("arch.msh", (1, 1, 2, 2), 1, 3)
+    meshes.zoned_arch("dry.msh", (1, 1, 2, 2), 1, 3)
+    meshes.with_water("dry.msh", "wet.msh", [30.] * 3, 60.)
     write_scene()
-    arch = scene("arch", "arch.msh", Concrete={"Young's modulus": 2e9}, Damping={**damping, "Zones": "heel: 0.08, crown: 0.02"}, Joints={"Model": "FJA"},
-                 Motion={"Source": "file", "File": "motion.txt", "Unit": "m/s^2", "Duration": 1, "Time step": .01})
-    runs(arch, "--output", "fine", *settings("Dynamics/Steps per sample=32", "Dynamics/Factors=double"))
-    runs(arch, "--output", "explicit_arch", *settings("Dynamics/Scheme=explicit", "Dynamics/Explicit step=0.0002", "Dynamics/Steps per sample=16"))
-    a, b = (summary(d)["extremes"]["max_opening"]["value"] for d in ("fine", "explicit_arch"))
-    errors = [summary(d)["energy_balance_error"] for d in ("fine", "explicit_arch")]
-    print(f"    arch: openings {a:.6f} and {b:.6f} m, energy balance {errors}")
-    expect(b > 1e-3 and abs(a / b - 1.) < 5e-3 and max(errors) < 1e-10, f"arch of zones: {a}, {b}, {errors}")
+    for name, reservoir in (("dry", {}), ("wet", {"Model": "acoustic", "Density": 1000})):
+        arch = scene(name, f"{name}.msh", Concrete={"Young's modulus": 2e9}, Damping={**damping, "Zones": "heel: 0.08, crown: 0.02"}, Joints={"Model": "FJA"},
+                     Reservoir=reservoir, Motion={"Source": "file", "File": "motion.txt", "Unit": "m/s^2", "Duration": 1, "Time step": .01})
+        runs(arch, "--output", "fine", *settings("Dynamics/Steps per sample=32", "Dynamics/Factors=double"))
+        runs(arch, "--output", "explicit_arch", *settings("Dynamics/Scheme=explicit", "Dynamics/Explicit step=0.0002", "Dynamics/Steps per sample=16"))
+        a, b = (summary(d)["extremes"]["max_opening"]["value"] for d in ("fine", "explicit_arch"))
+        errors = [summary(d)["energy_balance_error"] for d in ("fine", "explicit_arch")]
+        print(f"    {name} arch: openings {a:.6f} and {b:.6f} m, energy balance {errors}")
+        expect(b > 1e-3 and abs(a / b - 1.) < 5e-3 and max(errors) < 1e-10, f"{name} arch of zones: {a}, {b}, {errors}")
 
 
 if __name__ == "__main__":

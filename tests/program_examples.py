@@ -7,11 +7,14 @@
 
 import re
 import shlex
+import sys
 from pathlib import Path
 
-from run_program import expect, run_cases, succeeds, summary, voussoir
+from run_program import expect, run_cases, runs, succeeds, summary, voussoir
 
 ROOT = Path(__file__).resolve().parent.parent
+sys.path.insert(0, str(ROOT / "examples" / "snap_back"))
+import decay  # noqa: E402
 NUMBER = r"(?<![\w.])\d+(?:\.\d+)?(?!\w)"
 # Rows of the tables: path in summary.json and factor
 TENSION = {f"tensile stress {face}": f"max_tension_{face}_away_from_base" for face in ("upstream", "downstream")}
@@ -40,6 +43,15 @@ def computed(found, label):
     return [factor * value(found, path)]
 
 
+def swings(name, in_percent):
+    """Frequency [Hz] or damping ratio [%] of the first swing and of the last ones, and of the first mode of the tied dam."""
+    part, factor = (("frequency", 1), ("ratio", 100))[in_percent]
+    mode = re.search(r"^ +1 +([\d.]+) +([\d.]+)$", runs("modes", f"examples/{name}/scene.prm", "--count", "1"), re.M)
+    found = [factor * values[part] for values in decay.decay(f"output/{name}").values()] + [float(mode[1 + in_percent])]
+    expect(abs(found[1] / found[2] - 1) < .005, f"the last swings and the first mode: {found}")
+    return found
+
+
 def example(name):
     page = (ROOT / "examples" / name / "README.md").read_text()
     expect(len(page.split()) <= 120, f"{len(page.split())} words")
@@ -53,7 +65,8 @@ def example(name):
     rows = re.findall(r"^\| (.*?\[.*?\]) \| (.*) \|$", page, re.M)
     expect(len(rows) > 2, f"rows: {rows}")
     for label, cells in rows:
-        stated, values = re.findall(NUMBER, cells), computed(found, label)
+        stated = re.findall(NUMBER, cells)
+        values = swings(name, "[%]" in label) if "swing" in label else computed(found, label)
         print(f"    {label}: {' '.join(stated)}, computed {[float(f'{x:.5g}') for x in values]}")
         expect(len(stated) == len(values), f"{label}: {stated}")
         for digits, x in zip(stated, values):

@@ -20,7 +20,7 @@ import scenes  # noqa: E402
 from compare import STRESS, read_vtu, scene  # noqa: E402
 from program_sustained import agree  # noqa: E402
 from program_water import ACOUSTIC, RHO, C, H, base_force, bed_pressure  # noqa: E402
-from run_program import expect, run_cases, runs, same, settings, table, write_scene  # noqa: E402
+from run_program import expect, run_cases, runs, same, settings, table, voussoir, write_scene  # noqa: E402
 from voussoir.zone_tension import zone_means  # noqa: E402
 
 KOYNA = 31.027e9, .2, 2643.  # Young's modulus, Poisson's ratio, density
@@ -142,6 +142,30 @@ def massless():
     same("of_1", "of_3", 1e-9, ("history",))
 
 
+def sliding():
+    """The section with friction on its base, on massless rock softer than the dam. A pull downstream just below the sliding limit mu W + c A
+    has an equilibrium, whose sliding safety is the limit over the pull; one just above it has none. Without cohesion the limit is mu W."""
+    mu, gravity, width = .7, 9.81, koyna.FACE[0][1]
+    weight = gravity * KOYNA[2] * sum((a[1] + b[1]) / 2 * (b[0] - a[0]) for a, b in zip(koyna.FACE, koyna.FACE[1:]))
+    for cohesion in (0, 1e6):
+        file = on_rock("loose", 1., Foundation={"Model": "massless", **ROCK}, Joints={"Model": "FJA", "Friction": mu, "Adhesion": cohesion},
+                       Statics={"Self-weight": "monolithic", "Gravity": gravity})
+        mesh = Path("loose.msh")
+        mesh.write_text(mesh.read_text().replace('"base"', '"base joint"'))
+        limit, pull = mu * weight + cohesion * width, "Loads/Concentrated=pull: 0 0.5 15 {} 0 0"
+        runs(file, "--output", f"below{cohesion:g}", *settings(pull.format(.995 * limit), f"Limits/Base friction={mu}", f"Limits/Base cohesion={cohesion}"))
+        header, rows = table(f"below{cohesion:g}/blocks.csv")
+        safety = rows[0][header.index("safety_1")]
+        header, rows = table(f"below{cohesion:g}/joint_points.csv")
+        slip = max(row[header.index("max_slip")] for row in rows)
+        print(f"    cohesion {cohesion:g} Pa: limit {limit:.4e} N, at .995 of it the sliding safety {safety:.5f}, exact {1 / .995:.5f}, and the "
+              f"largest slip {slip / (limit / KOYNA[0]):.2f} of F/E (limit 3)")
+        expect(abs(.995 * safety - 1) < 1e-3, f"sliding safety {safety}")  # the footing weighs something
+        expect(slip < 3 * limit / KOYNA[0], f"slip of {slip} m: more than the bodies can stretch")  # nodes of the footing that shear alternately
+        stopped = voussoir(file, "--output", "above", *settings(pull.format(1.005 * limit)))
+        expect(stopped.returncode == 1 and "no equilibrium: monolith 1" in stopped.stderr, f"above the limit: {stopped.stderr}")
+
+
 def wide_reference(beside, below, wave, early, dt, steps):
     """Displacements x of the upstream crest and of the base [m] at intervals dt, explicit, in a box so wide that no reflection returns. A plane S wave rises, which
     comes to the ground after `early` [s], with half of the displacement wave(t) of an outcrop."""
@@ -244,4 +268,4 @@ def water():
 
 
 if __name__ == "__main__":
-    run_cases(modes, column, joint, massless, waves, water)
+    run_cases(modes, column, joint, massless, sliding, waves, water)

@@ -23,17 +23,19 @@ namespace Voussoir
 {
   namespace
   {
-    /** Returns the first bodies without a node on the base, such as "monolith 2, monolith 3", or an empty string. */
-    std::string bodies_without_base(const SolidModel &model)
+    /** Names the first bodies without base nodes, such as "monolith 2"; @p lifts false: of monoliths without any. */
+    std::string bodies_without_base(const SolidModel &model, const bool lifts)
     {
-      std::vector<bool> stands(model.n_bodies(), false);
+      const auto part = [&](const unsigned int b)
+      { return lifts ? static_cast<int>(b) : monolith_of(model.body_numbers[b]); };
+      std::set<int> standing;
       for (unsigned int i = 0; i < model.n_nodes(); ++i)
         if (model.is_at_base(i))
-          stands[model.body[i]] = true;
+          standing.insert(part(model.body[i]));
       std::string  names;
       unsigned int n = 0;
-      for (unsigned int b = 0; b < stands.size(); ++b)
-        if (!stands[b] && ++n <= 3)
+      for (unsigned int b = 0; b < model.n_bodies(); ++b)
+        if (standing.count(part(b)) == 0 && ++n <= 3)
           names += (n == 1 ? "" : ", ") + physical_name(3, model.body_numbers[b]);
       return n <= 3 ? names : names + " and " + std::to_string(n - 3) + " others";
     }
@@ -41,7 +43,7 @@ namespace Voussoir
     /** Throws InputError for a body without base nodes, before its stiffness is factorised alone. */
     void check_base(const SolidModel &model, const std::string &source, const char *why)
     {
-      if (const std::string names = bodies_without_base(model); !names.empty())
+      if (const std::string names = bodies_without_base(model, true); !names.empty())
         throw InputError(
             "mesh " + source + ": " + names + (names.find(',') == std::string::npos ? " has" : " have") +
             " no node on the surface \"base\", so nothing holds this part " + why +
@@ -54,13 +56,11 @@ namespace Voussoir
     void note_shape(Dam &dam)
     {
       std::vector<std::string> &warnings = dam.facts.warnings;
-      if (const std::string names = bodies_without_base(*dam.model); !names.empty())
-      {
-        dam.has_free_bodies = true;
+      dam.has_free_bodies = !bodies_without_base(*dam.model, true).empty();
+      if (const std::string names = bodies_without_base(*dam.model, false); !names.empty())
         warnings.push_back(names +
                            ": no node on the surface \"base\", so only contact holds these blocks. If they "
                            "are part of a dam, extend their joints to the base.");
-      }
       if (!dam.geometry->has_crest)
         warnings.push_back(
             "the surfaces \"crest\" and \"upstream\" do not meet, or are missing. Results of the crest are "
@@ -328,14 +328,7 @@ namespace Voussoir
       return;
     Structure scaled = assemble_structure(*model, damped, scene.elements.incompatible_modes);
     for (std::size_t b = 0; b < structure.bodies.size(); ++b)
-    {
-      const BlockSparseMatrix &K = structure.bodies[b].stiffness; // with blocks for rock or water
-      std::vector<std::vector<unsigned int>> columns;
-      for (unsigned int row = 0; row < K.n_rows(); ++row)
-        columns.emplace_back(K.column.begin() + K.start[row], K.column.begin() + K.start[row + 1]);
       structure.bodies[b].damped = std::move(scaled.bodies[b].stiffness);
-      structure.bodies[b].damped.extend(std::move(columns));
-    }
   }
 
   Structure Dam::sustained_structure() const

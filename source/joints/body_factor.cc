@@ -51,6 +51,15 @@ namespace Voussoir
       int                     *p = static_cast<int *>(A->p), *index = static_cast<int *>(A->i);
       double                  *x = static_cast<double *>(A->x);
       int                      k = 0;
+      BlockSparseMatrix        damped; // on the pattern of K, which has further blocks with rock or water
+      if (step.damped != 0.)
+      {
+        std::vector<std::vector<unsigned int>> columns;
+        for (unsigned int row = 0; row < K.n_rows(); ++row)
+          columns.emplace_back(K.column.begin() + K.start[row], K.column.begin() + K.start[row + 1]);
+        damped = body.damped;
+        damped.extend(std::move(columns));
+      }
       // The matrix is symmetric: rows of the upper part of K are columns of the lower part.
       for (unsigned int row = 0; row < K.n_rows(); ++row)
         for (unsigned int i = 0; i < 3; ++i)
@@ -63,7 +72,7 @@ namespace Voussoir
                 double            a = step.stiffness * K.value[e][3 * i + j];
                 const std::size_t node = body.first_node + row;
                 if (step.damped != 0.)
-                  a += step.damped * body.damped.value[e][3 * i + j];
+                  a += step.damped * damped.value[e][3 * i + j];
                 if (!body.reaction.empty())
                   a += step.reaction * body.reaction[e][3 * i + j];
                 if (K.column[e] == row)

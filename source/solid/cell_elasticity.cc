@@ -2,6 +2,7 @@
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
 
+#include <voussoir/mesh/mesh.h>
 #include <voussoir/solid/cell_elasticity.h>
 
 #include <cmath>
@@ -53,7 +54,6 @@ namespace Voussoir
     for (const unsigned int q : mass_values.quadrature_point_indices())
       for (unsigned int i = 0; i < n; ++i)
         mass[i] += material.density * mass_values.shape_value(i, q) * mass_values.JxW(q);
-    const Tensor<1, 3>        zero;
     std::vector<Tensor<1, 3>> gradient(n_all);
     for (const unsigned int q : values.quadrature_point_indices())
     {
@@ -66,7 +66,7 @@ namespace Voussoir
         for (unsigned int j = 0; j <= i; ++j)
         {
           const Tensor<1, 3> &g = gradient[i], &h = gradient[j];
-          if (g == zero || h == zero) // most products vanish with nodal quadrature
+          if (g == Tensor<1, 3>() || h == Tensor<1, 3>()) // most products vanish with nodal quadrature
             continue;
           const double gh = mu * (g * h);
           for (unsigned int a = 0; a < 3; ++a)
@@ -98,6 +98,8 @@ namespace Voussoir
         K_au(i, j) = stiffness[(n + i / 3) * n_all + j / 3][3 * (i % 3) + j % 3];
     }
     K_aa.gauss_jordan();
+    if (is_footing(static_cast<int>(cell->material_id())))
+      K_aa = 0.; // thin: with modes its nodes would shear alternately
     K_aa.mmult(mode_of_displacement, K_au);
     mode_of_displacement *= -1.;
     std::vector<Matrix3> condensed(n * n);
@@ -106,10 +108,9 @@ namespace Voussoir
         for (unsigned int a = 0; a < 3; ++a)
           for (unsigned int b = 0; b < 3; ++b)
           {
-            double x = stiffness[i * n_all + j][3 * a + b];
+            double &x = condensed[i * n + j][3 * a + b] = stiffness[i * n_all + j][3 * a + b];
             for (unsigned int k = 0; k < 9; ++k)
               x += K_au(k, 3 * i + a) * mode_of_displacement(k, 3 * j + b);
-            condensed[i * n + j][3 * a + b] = x;
           }
     stiffness.swap(condensed);
   }

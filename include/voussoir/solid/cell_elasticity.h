@@ -10,7 +10,7 @@
 
 namespace Voussoir
 {
-  /** Stiffness, mass and stress of one cell with n nodes. Incompatible modes are condensed.
+  /** Stiffness, mass and stress of one cell with n nodes. Incompatible modes are condensed (footings: zero).
    *
    * The stiffness of the dam is integrated at Gauss points. Nodal quadrature (QGaussLobatto(degree + 1))
    * serves explicit wave propagation. The lumped mass is the same for both.

@@ -16,7 +16,7 @@ namespace Voussoir
     int               number = 0;     ///< physical id of its (first) block
     unsigned int      first_node = 0; ///< its nodes are first_node .. first_node + stiffness.n_rows() - 1
     BlockSparseMatrix stiffness;      ///< [N/m], free nodes only
-    BlockSparseMatrix damped;         ///< K_c of Damping [N/m], on the same pattern; empty: K_c = K
+    BlockSparseMatrix damped;         ///< K_c of Damping [N/m], on a part of its pattern; empty: K_c = K
 
     /** Reaction of the water to a change of the displacement in a time step [N/m], on the pattern of the stiffness;
      * empty: none. The force of the water at the end of the step is the load minus the reaction times the change. */
