@@ -16,7 +16,7 @@ import sys
 import time
 from pathlib import Path
 
-from run_program import VOUSSOIR, expect, run_cases, runs, summary, voussoir, write, write_scene
+from run_program import VOUSSOIR, expect, run_cases, runs, settings, summary, voussoir, write, write_scene
 
 ROOT = Path(__file__).resolve().parent.parent
 sys.path.insert(0, str(ROOT / "python"))
@@ -237,6 +237,38 @@ def ensemble():
     expect(mixed["n"] == 3 and mixed["ratios"]["slip"] == [friction["ratios"]["slip"][k] for k in (2, 0, 1)], f"{mixed} depends on other motions: {friction}")
 
 
+def own_scheme():
+    """The smallest scene of rows in batches is also compared with the scheme of the scene and one motion: the changes are those of separate runs with
+    this scheme, and decide the promise."""
+    from voussoir.needs_command import Needs
+    command = Needs.__new__(Needs)
+    command.entries, command.numbers = {"Dynamics/Scheme": "implicit"}, range(3)
+    shown = {"batch": {"holds": True, "cost": 0.3, "within": 7, "changes": 1}, "single": {"holds": False, "cost": 0.4, "within": 6, "changes": 2}}
+    command.compare_by = lambda mode, name, chosen, changes, numbers: dict(shown[mode], numbers=numbers)
+    row, expected = {"mode": "batch"}, {**shown["single"], "numbers": [0]}
+    expect(command.compare("x", [row], {}) == {**expected, "changes": 1, "numbers": [None], "own_scheme": expected}, "the scheme of the scene decides")
+    expect("own_scheme" not in command.compare("x", [row], {"Dynamics/Scheme": "explicit"}), "a smallest scene with the explicit scheme")
+    expect(command.compare("x", [row, {"mode": "single"}], {}) == {**shown["single"], "numbers": [0, 1, 2]}, "a row without batches")
+    shown["batch"]["holds"] = False
+    expect(command.compare("x", [row], {})["cost"] == 0.3, "a promise that does not hold already")
+    write_scene()
+    stand_in([{"group": "numerics", "name": "elements through half", "set": {"Mesh/Arch210/Elements through": "1"}, "simpler": True}])
+    words = settings("Motion/Source=artificial", "Motion/File=", "Motion/Duration=1.28", "Motion/Ensemble=2-4", "Mesh/Arch210/Elements through=2")
+    text, _ = needs("--for", "150%", "--seconds", "0.6", "--output", "out", *words, "--", "scene.prm")
+    print(text)
+    found = json.loads(Path("out/needs.json").read_text())
+    smallest, own = found["smallest"], found["smallest"]["own_scheme"]
+    expect(found["rows"][0]["mode"] == "batch" and smallest["n"] == 3 and own["n"] == 1 and "with the scheme of the scene:" in text, f"{smallest}")
+    expect(smallest["holds"] is own["holds"] is True and smallest["cost"] == own["cost"], f"{smallest}")
+    alone = settings("Motion/Ensemble=", "Motion/Seed=2")
+    runs("scene.prm", *words, *alone, "--output", "full")
+    runs("out/smallest.prm", *alone, "--output", "small")
+    for column, extreme in (("opening", "max_opening"), ("slip", "max_slip")):
+        small, full = (summary(d)["extremes"][extreme]["value"] for d in ("small", "full"))
+        expect(abs(small / full - 1 - own["changes"][column]) < 1e-6 and own["changes"][column] != smallest["changes"][column],
+               f"{column}: {small / full - 1}, {own['changes']}, batch {smallest['changes']}")
+
+
 def stopped():
     """A command that is stopped goes on: finished runs stay, the others follow."""
     write_scene()
@@ -326,4 +358,4 @@ def bad_input():
 
 
 if __name__ == "__main__":
-    run_cases(verdicts, table, smallest, ensemble, stopped, declared, on_rock, bad_input)
+    run_cases(verdicts, table, smallest, ensemble, own_scheme, stopped, declared, on_rock, bad_input)
