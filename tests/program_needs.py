@@ -97,6 +97,7 @@ def verdicts():
     n.judge([own], error, 0.05, {})
     expect(own["verdict"] == n.UNIMPORTANT and own["errors"] == {}, f"{own}")
     motions(n, base)
+    work(n, base)
 
 
 def motions(n, base):
@@ -135,6 +136,45 @@ def motions(n, base):
     n.judge([row], {}, 0.05, scatter)
     expect(abs(row["changes"]["opening"]) < 0.05 and row["verdict"] == n.UNKNOWN and "largest opening" in row["reason"], f"{row}")
     expect(abs(row["errors"]["opening"] - 1.2533 * 0.51 / 8 ** .5) < 1e-4, f"{row['errors']}")
+
+
+def work(n, base):
+    """Rows that the smallest scene may adopt get all motions before the others; an attempt has half of the work that is left."""
+    from types import SimpleNamespace
+    from voussoir.needs_command import Needs
+    command, order = Needs.__new__(Needs), []
+    kinds = {"dear": (True, "single", 1.1), "batch": (True, "batch", 0.5), "cheap": (True, "single", 0.5), "other": (False, "single", 0.5)}
+    command.rows = [{"group": "x", "name": name, "simpler": simpler, "mode": mode, "cost": cost, "reference": "coarse", "motions": {}}
+                    for name, (simpler, mode, cost) in kinds.items()]
+
+    def run_row(row, motion):
+        order.append(f"{row['name']} {motion}")
+        if (row["name"], motion) == ("other", 1):
+            return {"failure": "not run: cost limit"}
+        row["motions"][motion] = base
+        return {"work": 1.}
+
+    command.run_row, command.jobs, command.numbers, command.done, command.began = run_row, 1, range(3), 1, 0.
+    command.run_all()
+    expect(order == ["dear 0", "batch 0", "cheap 0", "other 0", "cheap 1", "cheap 2", "dear 1", "other 1", "dear 2"], f"{order}")
+    spent = SimpleNamespace(spent=0., length=1.)
+
+    def run(cost, motion):
+        spent.spent += cost
+        return {"motions": {motion: base}, "where": {}, "setup": 0., "pace": cost}
+
+    def reference(mesh, motion, whole):
+        key = (mesh, motion, whole)
+        if key not in command.found:
+            command.found[key] = run(1., motion)
+        return command.found[key]
+
+    spent.run = lambda name, changes, motion, whole, limited: run(0.5, motion)
+    command.runs, command.reference, command.predicted, command.total, command.found, command.target = spent, reference, 1., 20., {}, 0.05
+    for n_motions, left in ((6, 11.), (7, 6.5), (6, 3.5), (3, 2.)):  # the scene itself is run once with each motion
+        found = command.compare_by("single", "x", [{"cost": 0.5}], {}, range(8))
+        expect(found["n"] == n_motions and found["holds"] and found["cost"] == 0.5 and 20. - spent.spent == left, f"{found}, {spent.spent}")
+    expect("failure" in command.compare_by("single", "x", [{"cost": 3.}], {}, [0]), "an attempt above the limit")
 
 
 def table():

@@ -30,14 +30,14 @@ from .ensembles import members_of
 from .errors import ComputationError, InputError
 from .needs_output import change_text, draw, motions_text, print_table, signed, smallest_text, value_text, write_json, write_table
 from .needs_runs import Runs
-from .needs_verdicts import COLUMNS, Motions, candidates_of, cheapest, judge, paired, scatter_of, size_of, to_take_back
+from .needs_verdicts import CHEAPER, COLUMNS, Motions, candidates_of, cheapest, judge, paired, scatter_of, size_of, to_take_back
 from .program import call, entries_of, set_options
 
 GROUPS = ("water", "foundation", "joints", "loads", "motion", "material", "numerics")
 ALIASES = {"rock": "foundation"}
 MOTIONS = 8  # artificial motions of a scene with one
 MOST, LEAST = 10., 300.  # limit of the command: work in runs of the scene, but at least this work
-RESERVE = 0.2  # of it, for the comparison of the smallest scenes
+RESERVE = 0.3  # of it, for the comparison of the smallest scenes
 ATTEMPTS = 5  # one proposal, and four with changes taken back
 
 
@@ -182,22 +182,26 @@ class Needs:
             row.update(mode=mode, where=run["where"], values=run["motions"].get(0, {}), cost=run["pace"] / reference["pace"], extra=run["changes"])
         return run
 
+    def run_round(self, pool: ThreadPoolExecutor, rows: List[Dict[str, Any]], motion: int) -> None:
+        """Runs rows with a motion, some at a time; with the first one also in batches."""
+        self.expected = self.done + len(rows)
+        futures = {pool.submit(self.run_row, row, motion): row for row in rows}
+        for future in as_completed(futures):
+            row, run = futures[future], future.result()
+            if motion == 0 or "failure" not in run:
+                self.progress(f"{row['group']}: {row['name']}{f', motion {motion + 1}' if motion else ''}", run)
+
     def run_all(self) -> None:
-        """Runs all rows, some at a time; then those that do not run in batches with the next motion, and so on."""
+        """Runs all rows; then those that do not run in batches with the other motions, first the rows that the smallest scene may adopt."""
         pool = ThreadPoolExecutor(self.jobs)
         try:
             # What the smallest scene may adopt first, and of this the cheapest: the cost limit ends the others.
             rows = sorted(self.rows, key=lambda row: (not row["simpler"], row["reference"] == "scene"))
-            for motion in self.numbers:
-                futures = {pool.submit(self.run_row, row, motion): row for row in rows}
-                for future in as_completed(futures):
-                    row, run = futures[future], future.result()
-                    if motion == 0:
-                        self.progress(f"{row['group']}: {row['name']}", run)
-                    elif "failure" not in run:
-                        self.progress(f"{row['group']}: {row['name']}, motion {motion + 1}", run)
-                rows = [row for row in rows if row["mode"] == "single" and len(row["motions"]) > motion]
-                self.expected = self.done + len(rows)
+            self.run_round(pool, rows, 0)
+            for adoptable in (True, False):
+                group = [row for row in rows if row["mode"] == "single" and row["motions"] and (row["simpler"] and row["cost"] < CHEAPER) == adoptable]
+                for motion in self.numbers[1:]:
+                    self.run_round(pool, [row for row in group if len(row["motions"]) == motion], motion)
         except BaseException:
             self.runs.stop()
             pool.shutdown(cancel_futures=True)
@@ -256,9 +260,10 @@ class Needs:
     def compare_by(self, mode: str, name: str, chosen: List[Dict[str, Any]], changes: Mapping[str, Any],
                    numbers: List[Optional[int]]) -> Dict[str, Any]:
         """Changes of a smallest scene against the scene, motion by motion over the whole motions."""
-        expected, motions, first = self.predicted * (1 + math.prod(row["cost"] for row in chosen)), {}, None
-        for motion in numbers:
-            if self.runs.spent + expected > self.total:
+        cost, half, motions, first = math.prod(row["cost"] for row in chosen), (self.runs.spent + self.total) / 2, {}, None
+        for motion in numbers:  # while half of the work is left for other attempts
+            expected = self.predicted * (cost + (("scene", motion, True) not in self.found))
+            if self.runs.spent + expected > (half if first else self.total):
                 break
             reference, run = self.reference("scene", motion, True), self.runs.run(name, changes, motion, whole=True, limited=False)
             for one in (reference, run):
