@@ -98,6 +98,7 @@ def verdicts():
     expect(own["verdict"] == n.UNIMPORTANT and own["errors"] == {}, f"{own}")
     motions(n, base)
     work(n, base)
+    attempts(n, base)
 
 
 def motions(n, base):
@@ -175,6 +176,41 @@ def work(n, base):
         found = command.compare_by("single", "x", [{"cost": 0.5}], {}, range(8))
         expect(found["n"] == n_motions and found["holds"] and found["cost"] == 0.5 and 20. - spent.spent == left, f"{found}, {spent.spent}")
     expect("failure" in command.compare_by("single", "x", [{"cost": 3.}], {}, [0]), "an attempt above the limit")
+
+
+def attempts(n, base):
+    """Rows are added as far as the measured changes allow, while this holds and is cheaper; a row that is taken back does not return."""
+    from unittest import mock
+    from voussoir import needs_command
+
+    def row(name, cost, opening):
+        found = n.paired({0: {**base, "opening": opening * base["opening"]}}, {0: base})
+        return {"group": "x", "name": name, "simpler": True, "set": {name: "1"}, "cost": cost, "verdict": n.UNIMPORTANT, **found}
+
+    rows = [row("a", 0.5, 0.96), row("b", 0.6, 0.97), row("c", 0.7, 0.975)]
+    expect([r["name"] for r in n.cheapest(rows, 0.05)] == ["a"], "a alone: b and c change the opening by 5.5 %")
+    expect([r["name"] for r in n.cheapest(rows[1:], 0.05, row("a", 9., 0.99))] == ["b"] and n.cheapest(rows, 0.05, {**rows[2], "set": {"b": 1}}) == [], "measured")
+    for results, tried, final in ((((True, -0.01, 0.5), (True, -0.03, 0.4)), ["a", "a b"], "a b"),  # c would be too much
+                                  (((True, -0.01, 0.5), (False, -0.06, 0.4)), ["a", "a b"], "a"), (((True, -0.01, 0.5), (True, -0.01, 0.6)), ["a", "a b"], "a"),
+                                  (((True, -0.01, 0.5), (None, 0., 0.4)), ["a", "a b"], "a"), (((True, -0.04, 0.5),), ["a"], "a"), (((None, 0., 0.5),), ["a"], "a"),
+                                  (((False, -0.06, 0.5), (True, -0.01, 0.6), (True, -0.02, 0.5)), ["a", "b", "b c"], "b c"),
+                                  (((False, -0.06, 0.5), (False, -0.06, 0.6), (False, -0.06, 0.7)), ["a", "b", "c"], "")):
+        command, left, seen = needs_command.Needs.__new__(needs_command.Needs), list(results), []
+        command.rows, command.target, command.scene, command.settings, command.directory = rows, 0.05, Path("scene.prm"), [], Path(".")
+
+        def compare(name, chosen, changes):
+            holds, opening, cost = left.pop(0)
+            seen.append(" ".join(r["name"] for r in chosen))
+            changed = n.paired({0: {**base, "opening": (1. + opening) * base["opening"]}}, {0: base})
+            return {"holds": holds, "cost": cost, **(changed if holds is not None else {"failure": "not run"})}
+
+        command.compare = compare
+        text_of = lambda scene, settings, chosen, target, directory: ("|".join(r["name"] for r in chosen) + "\n# Entries", {r["name"]: "1" for r in chosen})
+        with mock.patch.object(needs_command, "smallest_text", text_of):
+            found = command.smallest()
+        text = Path("smallest.prm").read_text()
+        expect(seen == tried and not left and found["rows"] == [f"x: {name}" for name in final.split()], f"{results}: {seen}, {found['rows']}")
+        expect(text.startswith(final.replace(" ", "|") + "\n# The promise of 5 % ") and len(found["attempts"]) == len(tried) + (not final), f"{text}")
 
 
 def table():

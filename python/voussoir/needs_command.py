@@ -215,13 +215,13 @@ class Needs:
         return {number: values for run in runs for number, values in run["motions"].items()}
 
     def smallest(self) -> Dict[str, Any]:
-        """Writes, runs and compares the smallest scene; takes changes back until the promise holds."""
-        chosen, attempts = cheapest(candidates_of(self.rows), self.target), []
+        """Writes, runs and compares the smallest scene; takes changes back until the promise holds. Then adds rows as far as the measured changes allow,
+        until this fails or is no cheaper."""
+        candidates, attempts, kept = candidates_of(self.rows), [], None
+        chosen = cheapest(candidates, self.target)
         n_run = sum("failure" not in row for row in self.rows)
-        file = self.directory / "smallest.prm"
         for k in range(ATTEMPTS):
             text, changes = smallest_text(self.scene.resolve(), self.settings, chosen, self.target, self.directory)
-            file.write_text(text, encoding="utf-8")
             names = [f"{row['group']}: {row['name']}" for row in chosen]
             if not chosen:
                 attempts.append({"rows": [], "holds": True, "cost": 1., "within": len(COLUMNS), "of": len(COLUMNS)})
@@ -229,16 +229,26 @@ class Needs:
                       "within the target.")
                 break
             print(f"\nSmallest scene, attempt {k + 1}: {'; '.join(names)}")
-            attempt = self.compare(f"smallest {k + 1}", chosen, changes)
-            attempts.append({"rows": names, "settings": changes, **attempt})
-            if attempt["holds"] is not False or k + 1 == ATTEMPTS:
+            attempt = {"rows": names, "settings": changes, **self.compare(f"smallest {k + 1}", chosen, changes)}
+            attempts.append(attempt)
+            if attempt["holds"] and (kept is None or attempt["cost"] < kept[1]["cost"]):
+                kept = text, attempt
+                more = cheapest([row for row in candidates if row not in chosen], self.target, {**attempt, "set": changes})
+                chosen = [*chosen, *more]
+                if not more:
+                    break
+            elif kept or attempt["holds"] is None or k + 1 == ATTEMPTS:
                 break
-            back = (to_take_back(chosen, attempt["changes"], attempt["counts"]) if "changes" in attempt
-                    else max(chosen, key=lambda row: size_of(row["changes"], row["counts"])))
-            print(f"    The promise does not hold; taken back: {back['group']}: {back['name']}")
-            chosen = [row for row in chosen if row is not back]
-        file.write_text(text.replace("\n# Entries", f"\n# {self.promise(attempts[-1])}\n# Entries", 1), encoding="utf-8")
-        return {**attempts[-1], "file": str(file), "attempts": attempts}
+            else:
+                back = (to_take_back(chosen, attempt["changes"], attempt["counts"]) if "changes" in attempt
+                        else max(chosen, key=lambda row: size_of(row["changes"], row["counts"])))
+                print(f"    The promise does not hold; taken back: {back['group']}: {back['name']}")
+                chosen, candidates = ([row for row in rows if row is not back] for rows in (chosen, candidates))
+                chosen = chosen or cheapest(candidates, self.target)
+        text, attempt = kept or (text, attempts[-1])
+        file = self.directory / "smallest.prm"
+        file.write_text(text.replace("\n# Entries", f"\n# {self.promise(attempt)}\n# Entries", 1), encoding="utf-8")
+        return {**attempt, "file": str(file), "attempts": attempts}
 
     def promise(self, attempt: Mapping[str, Any]) -> str:
         """A sentence: whether the smallest scene was found to be within the target, and its cost."""

@@ -189,11 +189,12 @@ def together(rows: List[Dict[str, Any]], name: str) -> float:
     return max(abs(sum(changes)), .5 * math.sqrt(sum(change ** 2 for change in changes)))
 
 
-def cheapest(candidates: List[Dict[str, Any]], target: float) -> List[Dict[str, Any]]:
+def cheapest(candidates: List[Dict[str, Any]], target: float, measured: Optional[Dict[str, Any]] = None) -> List[Dict[str, Any]]:
     """Rows with the smallest product of cost ratios whose changes together are at most the target in each column.
 
-    Two rows that set the same entry exclude each other."""
-    best: Tuple[float, List[Dict[str, Any]]] = (1., [])
+    Two rows that set the same entry exclude each other. @p measured: changes to which those of the rows are added, and entries that are set already."""
+    first = [measured] if measured else []
+    best: Tuple[float, List[Dict[str, Any]]] = (1., first)
     remaining = [math.prod(row["cost"] for row in candidates[k:]) for k in range(len(candidates) + 1)]
 
     def extend(k: int, chosen: List[Dict[str, Any]], cost: float) -> None:
@@ -207,8 +208,8 @@ def cheapest(candidates: List[Dict[str, Any]], target: float) -> List[Dict[str, 
             if not any(set(row["set"]) & set(other["set"]) for other in chosen):
                 extend(j + 1, [*chosen, row], cost * row["cost"])
 
-    extend(0, [], 1.)
-    return best[1]
+    extend(0, first, 1.)
+    return best[1][len(first):]
 
 
 def to_take_back(chosen: List[Dict[str, Any]], changes: Values, counts: Mapping[str, bool]) -> Dict[str, Any]:
