@@ -38,7 +38,8 @@ ALIASES = {"rock": "foundation"}
 MOTIONS = 8  # artificial motions of a scene with one
 MOST, LEAST = 10., 300.  # limit of the command: work in runs of the scene, but at least this work
 RESERVE = 0.3  # of it, for the comparison of the smallest scenes
-ATTEMPTS = 5  # one proposal, and four with changes taken back
+ATTEMPTS = 5  # proposals that are run
+OPTIMISM = 1.5  # rows are added up to this part of the target: the effects are those of the strongest seconds, and the run decides
 
 
 def coarse_mesh(entries: Mapping[str, str], directory: Path) -> Dict[str, str]:
@@ -215,9 +216,9 @@ class Needs:
         return {number: values for run in runs for number, values in run["motions"].items()}
 
     def smallest(self) -> Dict[str, Any]:
-        """Writes, runs and compares the smallest scene; takes changes back until the promise holds. Then adds rows as far as the measured changes allow,
-        until this fails or is no cheaper."""
-        candidates, attempts, kept = candidates_of(self.rows), [], None
+        """Writes, runs and compares the smallest scene; takes changes back until the promise holds. Then adds rows that the measured changes may allow;
+        what holds at the lowest cost is kept."""
+        candidates, attempts, kept = candidates_of(self.rows), [], None  # kept: text, attempt, rows
         chosen = cheapest(candidates, self.target)
         n_run = sum("failure" not in row for row in self.rows)
         for k in range(ATTEMPTS):
@@ -232,20 +233,22 @@ class Needs:
             attempt = {"rows": names, "settings": changes, **self.compare(f"smallest {k + 1}", chosen, changes)}
             attempts.append(attempt)
             if attempt["holds"] and (kept is None or attempt["cost"] < kept[1]["cost"]):
-                kept = text, attempt
-                more = cheapest([row for row in candidates if row not in chosen], self.target, {**attempt, "set": changes})
-                chosen = [*chosen, *more]
-                if not more:
-                    break
-            elif kept or attempt["holds"] is None or k + 1 == ATTEMPTS:
+                kept = text, attempt, chosen
+            elif attempt["holds"] is None or k + 1 == ATTEMPTS:
                 break
             else:
-                back = (to_take_back(chosen, attempt["changes"], attempt["counts"]) if "changes" in attempt
-                        else max(chosen, key=lambda row: size_of(row["changes"], row["counts"])))
-                print(f"    The promise does not hold; taken back: {back['group']}: {back['name']}")
+                new = [row for row in chosen if not kept or row not in kept[2]]
+                back = (to_take_back(new, attempt["changes"], attempt["counts"]) if "changes" in attempt
+                        else max(new, key=lambda row: size_of(row["changes"], row["counts"])))
+                print(f"    {'No gain' if attempt['holds'] else 'The promise does not hold'}; taken back: {back['group']}: {back['name']}")
                 chosen, candidates = ([row for row in rows if row is not back] for rows in (chosen, candidates))
                 chosen = chosen or cheapest(candidates, self.target)
-        text, attempt = kept or (text, attempts[-1])
+            if kept:
+                more = cheapest([row for row in candidates if row not in kept[2]], OPTIMISM * self.target, {**kept[1], "set": kept[1]["settings"]})
+                chosen = [*kept[2], *more]
+                if not more:
+                    break
+        text, attempt = kept[:2] if kept else (text, attempts[-1])
         file = self.directory / "smallest.prm"
         file.write_text(text.replace("\n# Entries", f"\n# {self.promise(attempt)}\n# Entries", 1), encoding="utf-8")
         return {**attempt, "file": str(file), "attempts": attempts}
