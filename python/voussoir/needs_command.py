@@ -219,7 +219,7 @@ class Needs:
         """Writes, runs and compares the smallest scene; takes changes back until the promise holds. Then adds rows that the measured changes may allow;
         what holds at the lowest cost is kept."""
         candidates, attempts, kept = candidates_of(self.rows), [], None  # kept: text, attempt, rows
-        chosen = cheapest(candidates, self.target)
+        chosen, others = cheapest(candidates, self.target), candidates_of(self.rows, self.target)
         n_run = sum("failure" not in row for row in self.rows)
         for k in range(ATTEMPTS):
             text, changes = smallest_text(self.scene.resolve(), self.settings, chosen, self.target, self.directory)
@@ -241,10 +241,10 @@ class Needs:
                 back = (to_take_back(new, attempt["changes"], attempt["counts"]) if "changes" in attempt
                         else max(new, key=lambda row: size_of(row["changes"], row["counts"])))
                 print(f"    {'No gain' if attempt['holds'] else 'The promise does not hold'}; taken back: {back['group']}: {back['name']}")
-                chosen, candidates = ([row for row in rows if row is not back] for rows in (chosen, candidates))
+                chosen, candidates, others = ([row for row in rows if row is not back] for rows in (chosen, candidates, others))
                 chosen = chosen or cheapest(candidates, self.target)
             if kept:
-                more = cheapest([row for row in candidates if row not in kept[2]], OPTIMISM * self.target, {**kept[1], "set": kept[1]["settings"]})
+                more = cheapest([row for row in others if row not in kept[2]], OPTIMISM * self.target, {**kept[1], "set": kept[1]["settings"]})
                 chosen = [*kept[2], *more]
                 if not more:
                     break
