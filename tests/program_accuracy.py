@@ -13,7 +13,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from run_program import VOUSSOIR, expect, refused, run_cases, runs, summary, write_scene
+from run_program import VOUSSOIR, expect, refused, run_cases, runs, settings, summary, voussoir, write_scene
 
 SCRIPTS = Path(__file__).resolve().parent.parent / "scripts"
 
@@ -207,6 +207,38 @@ def ensemble():
     expect("damping" not in load("scene").error_bars["max_opening"], "the damping of another scene")
 
 
+def explicit():
+    """A given explicit step that is above the critical one of a finer mesh is replaced by the step of the program, and only there."""
+    sys.path.insert(0, str(SCRIPTS.parent / "python"))
+    from voussoir import accuracy
+    write_scene()
+    words, step = settings("Dynamics/Scheme=explicit", "Dynamics/Explicit step=0.0049"), "Dynamics/Explicit step"
+    text = runs("accuracy", "scene.prm", "--seconds", "0.2", "--output", "out", "--for", "900%", *words)
+    expect(f"{step.rpartition('/')[2]} = 0.0049 (now)" in text, text)
+    replaced = {}
+    for file in Path("out/runs").glob("*/digest.json"):
+        changes = json.loads(file.read_text())["changes"]
+        given = {**changes, step: 0.0049 if changes.get(step) == -1 else changes.get(step, 0.0049)}
+        result = voussoir("scene.prm", "--validate", *words, *settings(*(f"{entry}={value}" for entry, value in given.items())))
+        replaced[file.parent.name] = changes.get(step) == -1
+        expect(result.returncode == (2 if replaced[file.parent.name] else 0), f"{file.parent.name}: {changes}, {result.stderr}")
+    print(f"    {replaced}")
+    expect(len(set(replaced.values())) == 2 and not replaced["base"], f"{replaced}")
+
+    class Levels:  # a proposal of a shorter step and of a finer mesh with the step of the program: the shorter step, unless it is too long, too
+        name, levels, current, limit = "x", [{}] * 2, 0, 0.
+        key = lambda self, k: self.level[k]
+
+    class Runs:
+        cost, changes, run, measures = {"both": 1.}, {"short": {step: "0.0016"}, "fine": {step: -1, "n": 4}}, lambda *_: None, lambda *_: 0.
+        norm = lambda *_: (0., 0., 0.)
+
+    ladder, choices = Runs(), [Levels(), Levels()]
+    choices[0].level, choices[1].level = ("base", "short"), ("base", "fine")
+    accuracy.plan, ladder.run, ladder.cost = lambda *_: ((1., .1, [1, 1]), None), ladder.changes.__setitem__, {accuracy.LAST: 1.}
+    expect(accuracy.propose(choices, ladder, .2)["changes"] == {step: "0.0016", "n": 4}, f"{ladder.changes}")
+
+
 def np_close(a, b):
     return all(abs(x - y) < 1e-12 for x, y in zip(a, b))
 
@@ -365,4 +397,4 @@ def table_of_text(name):
 
 
 if __name__ == "__main__":
-    run_cases(command, on_rock, water, maths, bars, ensemble)
+    run_cases(command, on_rock, water, maths, bars, ensemble, explicit)

@@ -910,6 +910,33 @@ def spectrum():
         if .1 <= float(row["period"]) <= .2:
             close(float(row["target_x"]), 2.5 * .5575 * .1 * 9.80665, 1e-6, "plateau of the design spectrum")
             close(float(row["target_z"]), 2.5 * .5575 * .1 * 9.80665 * .666667, 1e-6, "plateau of the vertical one")
+        x, mean, most = (float(row[name]) for name in ("spectrum_x", "rotd50", "rotd100"))
+        expect(abs(most / x - 1.) < 1e-6 and abs(mean / most - math.sqrt(.5)) < 1e-6, f"RotD50 and RotD100 of one component: {row}")
+    rotated()
+
+
+def rotated():
+    """RotD50 and RotD100 of both horizontal components are in the figures of the report, with the target; of one component there are none."""
+    runs("scene.prm", "--output", "both", *settings("Motion/Source=artificial", "Motion/File=", "Motion/Duration=8", "Motion/Unit=m/s^2"))
+    rows = table("both/spectrum.csv")
+    for row in rows:
+        x, y, mean, most = (float(row[name]) for name in ("spectrum_x", "spectrum_y", "rotd50", "rotd100"))
+        expect(mean <= most <= 1.000001 * math.hypot(x, y) and most >= .999999 * max(x, y), f"{row}")
+    expect(any(float(row["rotd100"]) > 1.05 * max(float(row["spectrum_x"]), float(row["spectrum_y"])) for row in rows), "no other direction has a larger response")
+    reports("both", "artificial")
+    page = Path("both/report.html").read_text()
+    expect(page.count('alt="response spectrum, RotD50 and RotD100') == 1, "one of both motions has two horizontal components")
+    sys.path.insert(0, str(Path(__file__).resolve().parent.parent / "python"))
+    from voussoir import drawing, runs as package_runs
+    labels = {}
+    for name, directions in (("both", "xyz"), ("both", "xy"), ("both", "x"), ("artificial", "xz")):
+        axes = drawing.plt.subplots()[1]
+        drawing.draw_spectra(axes, package_runs.Run(name).table("spectrum.csv"), directions)
+        labels[name, directions] = axes.get_legend_handles_labels()[1]
+        shown = {line.get_label(): line.get_ydata() for line in axes.lines}
+        expect("RotD100" not in shown or list(shown["RotD100"]) == [float(row["rotd100"]) for row in rows], f"{shown}")
+    expect(labels == {("both", "xyz"): ["stream", "cross", "vertical", "RotD50", "RotD100", "target"], ("both", "xy"): ["stream", "cross", "RotD50", "RotD100", "target"],
+                      ("both", "x"): ["stream", "target"], ("artificial", "xz"): ["stream", "vertical", "target"]}, f"{labels}")
 
 
 def table(name):

@@ -411,8 +411,8 @@ def propose(choices, ladder, wish):
     changes = {}
     for choice, k in zip(choices, chosen[2]):
         if k != choice.current:
-            level = ladder.changes[choice.key(k)]
-            changes.update({entry: max(value, changes.get(entry, value)) for entry, value in level.items()})
+            for entry, value in ladder.changes[choice.key(k)].items():  # a shorter explicit step before that of the program (-1) for a finer mesh
+                changes[entry] = changes.get(entry, value) if entry == EXPLICIT_STEP else max(value, changes.get(entry, value))
     proposal = {"changes": changes, "predicted": chosen[1], "meets": best is not None}
     if best is None:
         return proposal

@@ -299,31 +299,22 @@ def draw_base(axes, run, direction, largest):
     axes.margins(x=0)
 
 
-def draw_spectrum(axes, table, direction):
-    """Response spectrum of a component of the motion, with what it was to match."""
-    period = table["period"]
-    if f"target_{direction}" in table:
-        axes.loglog(period, table[f"target_{direction}"], color="k", linewidth=1.3, linestyle=(0, (4, 2)), label="target")
-    axes.loglog(period, table[f"spectrum_{direction}"], color=UPSTREAM, linewidth=1.1, label=DIRECTIONS[direction])
-    show_periods(axes, period)
-    axes.legend(loc="lower left", borderaxespad=0.2)
+def moving(table):
+    """Components of the motion that are not at rest: letters of DIRECTIONS."""
+    return [direction for direction in DIRECTIONS if np.any(table[f"spectrum_{direction}"])]
 
 
-def draw_motion_spectrum(axes, table):
-    """Response spectra of all components of the motion in one axes, with their targets."""
-    shown, targets = [d for d in DIRECTIONS if np.any(table[f"spectrum_{d}"])], {}
-    if not shown:
-        raise Skip("the base is at rest")
-    for number, direction in enumerate(shown):
-        axes.loglog(table["period"], table[f"spectrum_{direction}"], **line(number), linewidth=1.1, label=DIRECTIONS[direction])
-        if f"target_{direction}" in table:
-            targets.setdefault(table[f"target_{direction}"].tobytes(), table[f"target_{direction}"])
+def draw_spectra(axes, table, directions):
+    """Response spectra of components of the motion in one axes, with RotD50 and RotD100 if these are both horizontal ones, and their targets."""
+    rotated = {name: name.lower() for name in ("RotD50", "RotD100") if {"x", "y"} <= set(directions) and name.lower() in table}
+    for number, (name, column) in enumerate([*((name, f"spectrum_{d}") for d, name in DIRECTIONS.items()), *rotated.items()]):
+        if name in rotated or column[-1] in directions:
+            axes.loglog(table["period"], table[column], **{**line(number), "linewidth": 0.7 if rotated and column[-1] in "xy" else 1.3}, label=name)
+    targets = {column.tobytes(): column for d in directions if (column := table.get(f"target_{d}")) is not None}
     for number, target in enumerate(targets.values()):
         axes.loglog(table["period"], target, color="k", linewidth=1.3, linestyle=(0, (4, 2)), zorder=3, label=None if number else "target")
     show_periods(axes, table["period"])
-    axes.set_ylabel("pseudo-acceleration [m/s²]")
-    axes.legend(loc="lower left", borderaxespad=0.2)
-    note(axes, f"damping {100. * table['damping'][0]:g} %")
+    axes.legend(loc="lower left", borderaxespad=0.2, ncol=1 + bool(rotated))
 
 
 def draw_floor_spectra(axes, table, direction):

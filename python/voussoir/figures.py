@@ -34,7 +34,7 @@ import numpy as np
 from .command import write_whole
 from .errors import InputError
 from .drawing import (DIRECTIONS, FACES, aspect, common_levels, common_top, demand_bar, draw_base, draw_crest, draw_crest_bars, draw_demand,
-                      draw_energy, draw_face, draw_floor_spectra, draw_joint_history, draw_overstress, draw_spectrum, energy_parts, imbalance, plt,
+                      draw_energy, draw_face, draw_floor_spectra, draw_joint_history, draw_overstress, draw_spectra, energy_parts, imbalance, moving, plt,
                       stress_bar, worst_joints)
 from .ensemble_drawing import draw_distribution, draw_dynamic_analysis, draw_joint_band
 from .runs import Run, Skip
@@ -164,12 +164,11 @@ def history(runs, save):
 def spectrum(runs, save):
     for run in runs:
         table = run.table("spectrum.csv")
-        moving = [d for d in DIRECTIONS if np.any(table[f"spectrum_{d}"])]
-        if not moving:
+        if not (shown := moving(table)):
             continue
-        figure, row = plt.subplots(1, len(moving), figsize=(3.6 * len(moving), 3.6), sharey=True, squeeze=False)
-        for axes, direction in zip(row[0], moving):
-            draw_spectrum(axes, table, direction)
+        figure, row = plt.subplots(1, len(shown), figsize=(3.6 * len(shown), 3.6), sharey=True, squeeze=False)
+        for axes, direction in zip(row[0], shown):
+            draw_spectra(axes, table, direction)
         row[0, 0].set_ylabel("pseudo-acceleration [m/s²]")
         row[0, 0].set_title(f"{run.heading}\nResponse spectrum of the motion, damping {100 * table['damping'][0]:g} %", loc="left")
         save(run, figure, "spectrum")

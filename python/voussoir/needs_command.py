@@ -30,15 +30,16 @@ from .ensembles import members_of
 from .errors import ComputationError, InputError
 from .needs_output import change_text, draw, motions_text, print_table, signed, smallest_text, value_text, write_json, write_table
 from .needs_runs import Runs
-from .needs_verdicts import COLUMNS, Motions, candidates_of, cheapest, judge, paired, scatter_of, size_of, to_take_back
+from .needs_verdicts import CHEAPER, COLUMNS, Motions, candidates_of, cheapest, judge, paired, scatter_of, size_of, to_take_back
 from .program import call, entries_of, set_options
 
 GROUPS = ("water", "foundation", "joints", "loads", "motion", "material", "numerics")
 ALIASES = {"rock": "foundation"}
 MOTIONS = 8  # artificial motions of a scene with one
 MOST, LEAST = 10., 300.  # limit of the command: work in runs of the scene, but at least this work
-RESERVE = 0.2  # of it, for the comparison of the smallest scenes
-ATTEMPTS = 5  # one proposal, and four with changes taken back
+RESERVE = 0.3  # of it, for the comparison of the smallest scenes
+ATTEMPTS = 5  # proposals that are run
+OPTIMISM = 1.5  # rows are added up to this part of the target: the effects are those of the strongest seconds, and the run decides
 
 
 def coarse_mesh(entries: Mapping[str, str], directory: Path) -> Dict[str, str]:
@@ -182,22 +183,26 @@ class Needs:
             row.update(mode=mode, where=run["where"], values=run["motions"].get(0, {}), cost=run["pace"] / reference["pace"], extra=run["changes"])
         return run
 
+    def run_round(self, pool: ThreadPoolExecutor, rows: List[Dict[str, Any]], motion: int) -> None:
+        """Runs rows with a motion, some at a time; with the first one also in batches."""
+        self.expected = self.done + len(rows)
+        futures = {pool.submit(self.run_row, row, motion): row for row in rows}
+        for future in as_completed(futures):
+            row, run = futures[future], future.result()
+            if motion == 0 or "failure" not in run:
+                self.progress(f"{row['group']}: {row['name']}{f', motion {motion + 1}' if motion else ''}", run)
+
     def run_all(self) -> None:
-        """Runs all rows, some at a time; then those that do not run in batches with the next motion, and so on."""
+        """Runs all rows; then those that do not run in batches with the other motions, first the rows that the smallest scene may adopt."""
         pool = ThreadPoolExecutor(self.jobs)
         try:
             # What the smallest scene may adopt first, and of this the cheapest: the cost limit ends the others.
             rows = sorted(self.rows, key=lambda row: (not row["simpler"], row["reference"] == "scene"))
-            for motion in self.numbers:
-                futures = {pool.submit(self.run_row, row, motion): row for row in rows}
-                for future in as_completed(futures):
-                    row, run = futures[future], future.result()
-                    if motion == 0:
-                        self.progress(f"{row['group']}: {row['name']}", run)
-                    elif "failure" not in run:
-                        self.progress(f"{row['group']}: {row['name']}, motion {motion + 1}", run)
-                rows = [row for row in rows if row["mode"] == "single" and len(row["motions"]) > motion]
-                self.expected = self.done + len(rows)
+            self.run_round(pool, rows, 0)
+            for adoptable in (True, False):
+                group = [row for row in rows if row["mode"] == "single" and row["motions"] and (row["simpler"] and row["cost"] < CHEAPER) == adoptable]
+                for motion in self.numbers[1:]:
+                    self.run_round(pool, [row for row in group if len(row["motions"]) == motion], motion)
         except BaseException:
             self.runs.stop()
             pool.shutdown(cancel_futures=True)
@@ -211,13 +216,13 @@ class Needs:
         return {number: values for run in runs for number, values in run["motions"].items()}
 
     def smallest(self) -> Dict[str, Any]:
-        """Writes, runs and compares the smallest scene; takes changes back until the promise holds."""
-        chosen, attempts = cheapest(candidates_of(self.rows), self.target), []
+        """Writes, runs and compares the smallest scene; takes changes back until the promise holds. Then adds rows that the measured changes may allow;
+        what holds at the lowest cost is kept."""
+        candidates, attempts, kept = candidates_of(self.rows), [], None  # kept: text, attempt, rows
+        chosen, others = cheapest(candidates, self.target), candidates_of(self.rows, self.target)
         n_run = sum("failure" not in row for row in self.rows)
-        file = self.directory / "smallest.prm"
         for k in range(ATTEMPTS):
             text, changes = smallest_text(self.scene.resolve(), self.settings, chosen, self.target, self.directory)
-            file.write_text(text, encoding="utf-8")
             names = [f"{row['group']}: {row['name']}" for row in chosen]
             if not chosen:
                 attempts.append({"rows": [], "holds": True, "cost": 1., "within": len(COLUMNS), "of": len(COLUMNS)})
@@ -225,16 +230,28 @@ class Needs:
                       "within the target.")
                 break
             print(f"\nSmallest scene, attempt {k + 1}: {'; '.join(names)}")
-            attempt = self.compare(f"smallest {k + 1}", chosen, changes)
-            attempts.append({"rows": names, "settings": changes, **attempt})
-            if attempt["holds"] is not False or k + 1 == ATTEMPTS:
+            attempt = {"rows": names, "settings": changes, **self.compare(f"smallest {k + 1}", chosen, changes)}
+            attempts.append(attempt)
+            if attempt["holds"] and (kept is None or attempt["cost"] < kept[1]["cost"]):
+                kept = text, attempt, chosen
+            elif attempt["holds"] is None or k + 1 == ATTEMPTS:
                 break
-            back = (to_take_back(chosen, attempt["changes"], attempt["counts"]) if "changes" in attempt
-                    else max(chosen, key=lambda row: size_of(row["changes"], row["counts"])))
-            print(f"    The promise does not hold; taken back: {back['group']}: {back['name']}")
-            chosen = [row for row in chosen if row is not back]
-        file.write_text(text.replace("\n# Entries", f"\n# {self.promise(attempts[-1])}\n# Entries", 1), encoding="utf-8")
-        return {**attempts[-1], "file": str(file), "attempts": attempts}
+            else:
+                new = [row for row in chosen if not kept or row not in kept[2]]
+                back = (to_take_back(new, attempt["changes"], attempt["counts"]) if "changes" in attempt
+                        else max(new, key=lambda row: size_of(row["changes"], row["counts"])))
+                print(f"    {'No gain' if attempt['holds'] else 'The promise does not hold'}; taken back: {back['group']}: {back['name']}")
+                chosen, candidates, others = ([row for row in rows if row is not back] for rows in (chosen, candidates, others))
+                chosen = chosen or cheapest(candidates, self.target)
+            if kept:
+                more = cheapest([row for row in others if row not in kept[2]], OPTIMISM * self.target, {**kept[1], "set": kept[1]["settings"]})
+                chosen = [*kept[2], *more]
+                if not more:
+                    break
+        text, attempt = kept[:2] if kept else (text, attempts[-1])
+        file = self.directory / "smallest.prm"
+        file.write_text(text.replace("\n# Entries", f"\n# {self.promise(attempt)}\n# Entries", 1), encoding="utf-8")
+        return {**attempt, "file": str(file), "attempts": attempts}
 
     def promise(self, attempt: Mapping[str, Any]) -> str:
         """A sentence: whether the smallest scene was found to be within the target, and its cost."""
@@ -256,9 +273,10 @@ class Needs:
     def compare_by(self, mode: str, name: str, chosen: List[Dict[str, Any]], changes: Mapping[str, Any],
                    numbers: List[Optional[int]]) -> Dict[str, Any]:
         """Changes of a smallest scene against the scene, motion by motion over the whole motions."""
-        expected, motions, first = self.predicted * (1 + math.prod(row["cost"] for row in chosen)), {}, None
-        for motion in numbers:
-            if self.runs.spent + expected > self.total:
+        cost, half, motions, first = math.prod(row["cost"] for row in chosen), (self.runs.spent + self.total) / 2, {}, None
+        for motion in numbers:  # while half of the work is left for other attempts
+            expected = self.predicted * (cost + (("scene", motion, True) not in self.found))
+            if self.runs.spent + expected > (half if first else self.total):
                 break
             reference, run = self.reference("scene", motion, True), self.runs.run(name, changes, motion, whole=True, limited=False)
             for one in (reference, run):

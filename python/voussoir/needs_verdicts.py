@@ -178,9 +178,13 @@ def judge(rows: List[Dict[str, Any]], mesh_error: Values, target: float, scatter
         row["reason"] = "; ".join(filter(None, (row["reason"], row.get("missing"))))
 
 
-def candidates_of(rows: List[Dict[str, Any]]) -> List[Dict[str, Any]]:
-    """Rows that the smallest scene may adopt, the cheapest first."""
-    return sorted((row for row in rows if row["simpler"] and row["verdict"] == UNIMPORTANT and row["cost"] < CHEAPER), key=lambda row: row["cost"])
+def candidates_of(rows: List[Dict[str, Any]], target: float = 0.) -> List[Dict[str, Any]]:
+    """Rows that the smallest scene may adopt, the cheapest first. With a target also rows whose changes less their errors are within it."""
+    def may_hold(row: Dict[str, Any]) -> bool:
+        return all(abs(row["changes"][name] or 0.) - (row["errors"].get(name) or 0.) <= target for name in COLUMNS if row["counts"][name])
+
+    return sorted((row for row in rows if row["simpler"] and row.get("changes") and row["cost"] < CHEAPER
+                   and (row["verdict"] == UNIMPORTANT or target > 0. and may_hold(row))), key=lambda row: row["cost"])
 
 
 def together(rows: List[Dict[str, Any]], name: str) -> float:
@@ -189,11 +193,12 @@ def together(rows: List[Dict[str, Any]], name: str) -> float:
     return max(abs(sum(changes)), .5 * math.sqrt(sum(change ** 2 for change in changes)))
 
 
-def cheapest(candidates: List[Dict[str, Any]], target: float) -> List[Dict[str, Any]]:
+def cheapest(candidates: List[Dict[str, Any]], target: float, measured: Optional[Dict[str, Any]] = None) -> List[Dict[str, Any]]:
     """Rows with the smallest product of cost ratios whose changes together are at most the target in each column.
 
-    Two rows that set the same entry exclude each other."""
-    best: Tuple[float, List[Dict[str, Any]]] = (1., [])
+    Two rows that set the same entry exclude each other. @p measured: changes to which those of the rows are added, and entries that are set already."""
+    first = [measured] if measured else []
+    best: Tuple[float, List[Dict[str, Any]]] = (1., first)
     remaining = [math.prod(row["cost"] for row in candidates[k:]) for k in range(len(candidates) + 1)]
 
     def extend(k: int, chosen: List[Dict[str, Any]], cost: float) -> None:
@@ -207,11 +212,11 @@ def cheapest(candidates: List[Dict[str, Any]], target: float) -> List[Dict[str, 
             if not any(set(row["set"]) & set(other["set"]) for other in chosen):
                 extend(j + 1, [*chosen, row], cost * row["cost"])
 
-    extend(0, [], 1.)
-    return best[1]
+    extend(0, first, 1.)
+    return best[1][len(first):]
 
 
 def to_take_back(chosen: List[Dict[str, Any]], changes: Values, counts: Mapping[str, bool]) -> Dict[str, Any]:
-    """The adopted row with the largest change in the column that misses the target most."""
+    """The adopted row with the largest change per saving in the column that misses the target most. The saving is the logarithm of the cost ratio."""
     column = max(COLUMNS, key=lambda name: abs(changes[name] or 0.) if counts[name] else 0.)
-    return max(chosen, key=lambda row: (abs(row["changes"][column] or 0.), size_of(row["changes"], row["counts"])))
+    return max(chosen, key=lambda row: (abs(row["changes"][column] or 0.) / -math.log(row["cost"]), size_of(row["changes"], row["counts"])))

@@ -266,7 +266,7 @@ def motion(page, runs):
             damping = 100. * run.table("spectrum.csv")["damping"][0]
             of = f" of {escape(run.name)}" if len(moving) > 1 else ""
             page.row(f"Response spectra of the {'first ' if run.ensemble else ''}motion{of}, damping {damping:g} %{target_words(page, run)}.",
-                     [("", f"response spectrum, {figures.DIRECTIONS[d]}", lambda source=source: source) for d, source in images.items()])
+                     [("", f"response spectrum, {name}", lambda source=source: source) for name, source in images.items()])
 
 
 def target_words(page, run):

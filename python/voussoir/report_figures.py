@@ -10,8 +10,8 @@ import numpy as np
 from . import picture
 from .errors import InputError
 from .drawing import (DIRECTIONS, LIMIT, aspect, common_levels, common_top, demand_bar, draw_base, draw_crest, draw_crest_bars, draw_demand,
-                      draw_energy, draw_face, draw_joint_history, draw_motion_spectrum, draw_spectrum, energy_parts, energy_unit, plt,
-                      show_periods, stress_bar, worst_joints)
+                      draw_energy, draw_face, draw_joint_history, draw_spectra, energy_parts, energy_unit, moving, note, plt, show_periods,
+                      stress_bar, worst_joints)
 from .mode_shapes import draw_shape
 from .palette import line
 from .runs import NotComputed, Skip
@@ -115,24 +115,30 @@ def accelerations(run):
 
 
 def spectra(run, top):
-    """Response spectra of the components that move, each with its target: direction -> image."""
+    """Response spectra of the components that move, each with its target, and of both horizontal ones with RotD50 and RotD100: name -> image."""
     table = run.table("spectrum.csv")
-    images = {}
-    for direction in DIRECTIONS:
-        if np.any(table[f"spectrum_{direction}"]):
-            @panel(2.9)
-            def made(_, axes, direction=direction):
-                draw_spectrum(axes[0], table, direction)
-                axes[0].set_ylabel("pseudo-acceleration [m/s²]")
-                axes[0].set_ylim(top / 60., 1.4 * top)
-            images[direction] = made
+    images, shown = {}, moving(table)
+    for directions in [*shown, *(["xy"] if {"x", "y"} <= set(shown) and "rotd50" in table else [])]:
+        @panel(2.9)
+        def made(_, axes, directions=directions):
+            draw_spectra(axes[0], table, directions)
+            axes[0].set_ylabel("pseudo-acceleration [m/s²]")
+            axes[0].set_ylim(top / 60., 1.4 * top)
+        images[DIRECTIONS.get(directions, "RotD50 and RotD100")] = made
     return images
 
 
 def motion_spectrum(run):
+    """Response spectra of all components of the motion."""
+    table = run.table("spectrum.csv")
+    if not (shown := moving(table)):
+        raise Skip("the base is at rest")
+
     @panel(2.3)
     def made(_, axes):
-        draw_motion_spectrum(axes[0], run.table("spectrum.csv"))
+        draw_spectra(axes[0], table, shown)
+        axes[0].set_ylabel("pseudo-acceleration [m/s²]")
+        note(axes[0], f"damping {100. * table['damping'][0]:g} %")
     return made
 
 
@@ -146,7 +152,7 @@ def deviation(table):
 
 def highest_spectrum(runs):
     tables = [run.table("spectrum.csv") for run in runs]
-    return max(table[name].max() for table in tables for name in table if name.startswith(("spectrum", "target")))
+    return max(table[name].max() for table in tables for name in table if name.startswith(("spectrum", "target", "rotd")))
 
 
 # ---------------------------------------------------------------- the response

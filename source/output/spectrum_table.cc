@@ -8,30 +8,31 @@ namespace Voussoir
 {
   Table spectrum_table(const GroundMotion &motion, const MotionParameters &parameters)
   {
-    const std::vector<double>        periods = logarithmic_periods(.03, 5., 40);
-    std::vector<std::vector<double>> columns = {periods,
-                                                std::vector<double>(periods.size(), parameters.damping)};
-    Table                            table;
-    table.columns = {"period", "damping"};
-    for (unsigned int d = 0; d < 3; ++d)
+    const std::vector<double> periods = logarithmic_periods(.03, 5., 40);
+    Table                     table;
+    table.rows.resize(periods.size());
+    const auto add = [&table](const std::string &name, const std::vector<double> &values)
     {
-      table.columns.push_back(std::string("spectrum_") + "xyz"[d]);
-      columns.push_back(
+      table.columns.push_back(name);
+      for (std::size_t i = 0; i < values.size(); ++i)
+        table.rows[i].push_back(values[i]);
+    };
+    add("period", periods);
+    add("damping", std::vector<double>(periods.size(), parameters.damping));
+    for (unsigned int d = 0; d < 3; ++d)
+      add(std::string("spectrum_") + "xyz"[d],
           pseudo_acceleration_spectrum(motion.component(d), motion.dt, periods, parameters.damping));
-    }
+    table.columns.insert(table.columns.end(), {"rotd50", "rotd100"});
+    for (std::size_t i = 0; i < periods.size(); ++i)
+      for (const double value : rotated_response(motion.component(0), motion.component(1), motion.dt,
+                                                 periods[i], parameters.damping))
+        table.rows[i].push_back(value);
     for (unsigned int d = 0; d < 3 && parameters.has_target(); ++d)
     {
-      const double factor = std::abs(parameters.factor * parameters.scale[d]);
-      table.columns.push_back(std::string("target_") + "xyz"[d]);
-      columns.emplace_back();
+      std::vector<double> target;
       for (const double period : periods)
-        columns.back().push_back(factor * parameters.target(d, period));
-    }
-    for (std::size_t i = 0; i < periods.size(); ++i)
-    {
-      table.rows.emplace_back();
-      for (const std::vector<double> &column : columns)
-        table.rows.back().push_back(column[i]);
+        target.push_back(std::abs(parameters.factor * parameters.scale[d]) * parameters.target(d, period));
+      add(std::string("target_") + "xyz"[d], target);
     }
     return table;
   }
