@@ -190,10 +190,10 @@ namespace Columns
     double friction = 0., impact = 0., total = 0.; ///< the largest that was created in a step [J]
     Energy before;
 
-    explicit JointAccount(const Newmark &newmark) : before(newmark.state().energy) {}
-    void see(const Newmark &newmark)
+    explicit JointAccount(const Integrator &integrator) : before(integrator.state().energy) {}
+    void see(const Integrator &integrator)
     {
-      const Energy &now = newmark.state().energy;
+      const Energy &now = integrator.state().energy;
       friction = std::max(friction, before.friction - now.friction);
       impact = std::max(impact, before.impact - now.impact);
       total = std::max(total, before.friction + before.impact - now.friction - now.impact);
@@ -204,10 +204,10 @@ namespace Columns
   /** Of all runs since it was last reported, over the largest energy of each run. */
   inline double worst_energy_error = 0., worst_friction = 0., worst_impact = 0., worst_gain = 0.;
 
-  inline void see_energy(const Newmark &newmark, const JointAccount &joints)
+  inline void see_energy(const Integrator &integrator, const JointAccount &joints)
   {
-    const double scale = std::max(newmark.largest_energy(), 1e-300);
-    worst_energy_error = std::max(worst_energy_error, newmark.energy_error());
+    const double scale = std::max(integrator.largest_energy(), 1e-300);
+    worst_energy_error = std::max(worst_energy_error, integrator.energy_error());
     worst_friction = std::max(worst_friction, joints.friction / scale);
     worst_impact = std::max(worst_impact, joints.impact / scale);
     worst_gain = std::max(worst_gain, joints.total / scale);
@@ -243,13 +243,13 @@ namespace Columns
     std::vector<Vector3> force, gap;
   };
 
-  /** Steps @p newmark n times under load(t); @p see is called after the start and after each step. */
-  inline History run(Newmark &newmark, const double dt, const unsigned int n,
+  /** Steps @p integrator n times under load(t); @p see is called after the start and after each step. */
+  inline History run(Integrator &integrator, const double dt, const unsigned int n,
                      const std::function<void(double, Unknowns &)> &load, const Unknowns &zero,
                      const std::function<void()> &see = nullptr, const bool is_mean = true)
   {
     History      h;
-    JointAccount joints(newmark);
+    JointAccount joints(integrator);
     for (unsigned int i = 0; i <= n; ++i)
     {
       if (i > 0)
@@ -257,18 +257,18 @@ namespace Columns
         Unknowns f = zero;
         if (load)
           load(i * dt, f);
-        newmark.advance(f);
-        joints.see(newmark);
+        integrator.advance(f);
+        joints.see(integrator);
       }
-      const Unknowns &force = newmark.state().force;
+      const Unknowns &force = integrator.state().force;
       h.t.push_back(i * dt);
       h.t_force.push_back(i == 0 || !is_mean ? i * dt : (i - .5) * dt);
       h.force.push_back({{force[0], force[1], force[2]}});
-      h.gap.push_back(newmark.opening_and_slip(0));
+      h.gap.push_back(integrator.opening_and_slip(0));
       if (see)
         see();
     }
-    see_energy(newmark, joints);
+    see_energy(integrator, joints);
     return h;
   }
 

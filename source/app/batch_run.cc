@@ -112,9 +112,21 @@ namespace Voussoir
     }
   };
 
+  namespace
+  {
+    std::vector<Vector3> first_accelerations(const std::vector<const GroundMotion *> &motions)
+    {
+      std::vector<Vector3> result;
+      for (const GroundMotion *motion : motions)
+        result.push_back(motion->sample(0));
+      return result;
+    }
+  } // namespace
+
   BatchRun::BatchRun(const RunState &start, const BatchModel &model, const StressObserver &observer,
                      const std::vector<const GroundMotion *> &motions)
-      : batch(model), envelope_interval(start.scene().output.envelope_interval.samples)
+      : batch(model, first_accelerations(motions)),
+        envelope_interval(start.scene().output.envelope_interval.samples)
   {
     for (const GroundMotion *motion : motions)
     {

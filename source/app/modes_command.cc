@@ -270,7 +270,8 @@ namespace Voussoir
   std::vector<double> first_frequencies(Scene scene)
   {
     if (scene.foundation.model == "rock")
-      scene.foundation.model = scene.mesh.source == "file" ? "massless" : "rigid";
+      scene.foundation.model = "rigid";
+    scene.foundation.ignores_rock = true;
     if (scene.reservoir.is_meshed())
       scene.reservoir.model = "incompressible";
     scene.is_for_modes = true;

@@ -18,9 +18,9 @@ namespace Voussoir
     constexpr unsigned int most_sweeps = 2000, most_events = 8;
     constexpr double       enough = 1e-9; ///< relative change of the forces of a cluster
 
-    Matrix3 scaled(const Matrix3 &a, const double factor)
+    template <class Array> Array scaled(const Array &a, const double factor)
     {
-      Matrix3 result = a;
+      Array result = a;
       for (double &x : result)
         x *= factor;
       return result;
@@ -92,14 +92,27 @@ namespace Voussoir
     }
   }
 
-  /** The velocity of the start is that of the middle of a step before it, so its strain energy is u(-1) K u(0) / 2. */
+  /** The velocity begins in the middle of a step before the start, v(-1/2) = v - h a / 2 with the acceleration a of the
+   * start. So its strain energy is u(-1) K u(0) / 2. */
   void Leapfrog::start(const Unknowns &u, const Unknowns &v, const Unknowns &force, const Unknowns &load,
                        const Unknowns &reference, const Unknowns &memory, const Unknowns &elastic_force)
   {
-    Integrator::start(u, v, force, load, reference, memory, elastic_force);
+    Unknowns before = v, sum = load, Ku_start;
+    for (const StepNeighbour *neighbour : neighbours)
+      neighbour->add_forces(sum);
+    structure.multiply_stiffness(u, Ku_start);
+    for (std::size_t i = 0; i < structure.n_nodes(); ++i)
+      for (unsigned int c = 0; c < 3; ++c)
+      {
+        const Vector3 a = clusters.inverse_masses()[i] * (get(sum, i) - get(Ku_start, i));
+        before[3 * i + c] -= .5 * h * (a[c] - structure.damping.mass * v[3 * i + c]);
+      }
+    for (std::size_t p = 0; p < structure.pairs.size(); ++p)
+      clusters.add_impulse(structure.pairs[p], scaled(get(force, p), -.5 * h), before);
+    Integrator::start(u, before, force, load, reference, memory, elastic_force);
     double change = 0.;
     for (std::size_t k = 0; k < v.size(); ++k)
-      change -= .5 * h * v[k] * (now.Ku[k] - (elastic_force.empty() ? 0. : elastic_force[k]));
+      change -= .5 * h * before[k] * (now.Ku[k] - (elastic_force.empty() ? 0. : elastic_force[k]));
     now.energy.strain += change;
     first.strain += change;
   }

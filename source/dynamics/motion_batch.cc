@@ -198,7 +198,7 @@ namespace Voussoir
     return result;
   }
 
-  MotionBatch::MotionBatch(const BatchModel &model)
+  MotionBatch::MotionBatch(const BatchModel &model, const std::vector<Vector3> &ground)
       : model(model), view(model.view()), lanes(n_lanes()), u(3 * view.n_nodes * lanes), v(u), w(u), f(u),
         d(view.n_terms * 3 * view.n_nodes * lanes), gap(3 * view.n_pairs * lanes), moved(gap), impulse(gap)
   {
@@ -206,6 +206,13 @@ namespace Voussoir
       for (unsigned int c = 0; c < 3; ++c)
         for (unsigned int lane = 0; lane < lanes; ++lane)
           gap[(3 * q + c) * lanes + lane] = view.pairs[q].gap[c];
+    const double half = .5 * model.dt / model.n_steps;
+    for (std::size_t k = 0; k < 3 * view.n_nodes;
+         ++k) // velocity in the middle of a step before the start, as Leapfrog
+      for (std::size_t lane = 0; lane < ground.size(); ++lane)
+        for (unsigned int c = 0; c < 9; ++c)
+          v[k * lanes + lane] -=
+              half * view.inverse_mass[3 * k + c / 3] * view.of_ground[9 * (k / 3) + c] * ground[lane][c % 3];
   }
 
   void MotionBatch::advance(const std::vector<Vector3> &before, const std::vector<Vector3> &after)

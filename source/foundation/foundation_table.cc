@@ -51,7 +51,7 @@ namespace Voussoir
         throw InputError("Foundation/Model is " + site.parameters.model + ", but the mesh " + site.source +
                          " has no rock. Add rock to the mesh (volumes from id 1000 on), or set "
                          "Foundation/Model to rigid.");
-      if (has_rock && !foundation.uses_rock() && site.generated_in.empty())
+      if (has_rock && !foundation.uses_rock() && site.generated_in.empty() && !site.parameters.ignores_rock)
         throw InputError(
             "mesh " + site.source +
             " has rock (volumes from id 1000 on), but Foundation/Model is rigid. Set it to rock or "

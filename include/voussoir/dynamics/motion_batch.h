@@ -63,8 +63,9 @@ namespace Voussoir
   class MotionBatch
   {
   public:
-    /** Starts all lanes in the static state. @p model must outlive the object. */
-    explicit MotionBatch(const BatchModel &model);
+    /** Starts all lanes in the static state. @p model must outlive the object. @p ground: accelerations of the base at
+     * the start, one entry per lane [m/s^2]; empty: zero. */
+    explicit MotionBatch(const BatchModel &model, const std::vector<Vector3> &ground = {});
 
     /** Advances all lanes by BatchModel::dt. The accelerations of the base at the start and at the end of the step
      * [m/s^2] have one entry per lane. */
