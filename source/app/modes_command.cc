@@ -269,9 +269,11 @@ namespace Voussoir
 
   std::vector<double> first_frequencies(Scene scene)
   {
-    if (scene.foundation.model == "rock")
+    if (scene.foundation.model == "rock") // the same mesh, whose end walls are free
+    {
       scene.foundation.model = "rigid";
-    scene.foundation.ignores_rock = true;
+      scene.foundation.ignores_rock = true;
+    }
     if (scene.reservoir.is_meshed())
       scene.reservoir.model = "incompressible";
     scene.is_for_modes = true;

@@ -447,7 +447,7 @@ namespace Voussoir
   {
     MeshParameters parameters = mesh;
     parameters.arch210_rock.enabled = parameters.arcs_rock.enabled =
-        foundation_reads(foundation.model, "Foundation/Young's modulus");
+        foundation.ignores_rock || foundation_reads(foundation.model, "Foundation/Young's modulus");
     return make_mesh(parameters, directory);
   }
 

@@ -27,7 +27,7 @@ namespace Voussoir
     bool         nodal_everywhere = true;                     ///< nodal quadrature, except at the dam
     unsigned int nodal_layers = 6;     ///< element layers of nodal quadrature at the artificial boundary
     unsigned int layers_at_dam = 3;    ///< element layers with the dam's quadrature at the base
-    bool         ignores_rock = false; ///< no error if the mesh has rock that the model does not use
+    bool         ignores_rock = false; ///< the mesh has rock that the model does not use
     unsigned int substeps = 0; ///< rock time steps per time step of the dam; 0: from the critical time step
     std::string  coupling = "auto";    ///< auto, mean traction or partition; Dam: common step
     bool         plane_strain = false; ///< no displacements along y; set by Dam
