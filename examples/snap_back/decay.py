@@ -61,4 +61,4 @@ def draw(all_results, file):
 if __name__ == "__main__":
     for name, values in decay(sys.argv[1]).items():
         print(f"{name}: {values['frequency']:.3f} Hz, damping ratio {100 * values['ratio']:.2f} %")
-    draw(sys.argv[1:], Path(__file__).resolve().parent / "figure.png")
+    draw(sys.argv[1:], Path(sys.argv[1]) / "decay.png")

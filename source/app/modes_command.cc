@@ -208,8 +208,10 @@ namespace Voussoir
       text << monolith.name << " between open joints has a damping ratio of " << 100. * monolith.ratio[0]
            << " % in its first mode (" << monolith.frequency[0] << " Hz), \"Damping/Ratio\" is "
            << 100. * ratio << " %. Openings depend on it: "
-           << (damping.is_uniform() ? "reduce \"Damping/Band begin\"."
-                                    : "change \"Damping/Frequency 1\", or set \"Damping/Model\" to uniform.");
+           << (!damping.zones.empty() ? "compare the ratios of \"Damping/Zones\"."
+               : damping.is_uniform()
+                   ? "reduce \"Damping/Band begin\"."
+                   : "change \"Damping/Frequency 1\", or set \"Damping/Model\" to uniform.");
       return text.str();
     }
 

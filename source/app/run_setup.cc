@@ -103,7 +103,7 @@ namespace Voussoir
       if (damping.needs_first_frequency())
         dam.facts.frequencies = first_frequencies(dam.scene);
       dam.set_damping(dam.facts.frequencies.empty() ? 0. : dam.facts.frequencies[0]);
-      if (const std::string warning = damping.warning(); !warning.empty())
+      if (const std::string warning = damping.warning(dam.structure.damping.zones); !warning.empty())
         dam.facts.warnings.push_back(warning);
     }
   } // namespace
@@ -156,6 +156,8 @@ namespace Voussoir
       const double of_rock = dam.scene.is_explicit() ? dam.foundation->largest_step() : INFINITY;
       dam.facts.critical_step = dam.water->with_dam().critical_step(dam.water->model_for(0.),
                                                                     std::min(critical.length, of_rock), mass);
+      if (dam.facts.critical_step < .95 * std::min(critical.length, of_rock))
+        dam.facts.critical_place += " and the water";
     }
 
     /** Returns the number of steps of the explicit scheme in a time step @p dt. Throws InputError if the wanted step is
@@ -221,7 +223,7 @@ namespace Voussoir
                   ? motion.acceleration.size() - 1
                   : 0;
     rock_wedges(scene); // throws InputError before the dam is assembled
-    check_water_size(scene, n_steps > 0 ? motion.dt : 0., log);
+    check_water_size(scene, n_steps > 0 && !scene.is_explicit() ? motion.dt : 0., log);
     make_dam();
     set_damping(*state.dam, n_steps > 0);
     if (n_steps > 0 && (scene.is_explicit() || options.validate))

@@ -370,7 +370,8 @@ namespace Voussoir
         add_product(result[b], stiffness[b].part[k], u);
       }
       for (std::size_t k = 0; !step.relaxation.empty() && k < zones[b].node.size(); ++k)
-        add_product(result[b], zones[b].part[k], get(step.relaxation, zones[b].node[k]));
+        add_product(result[b], zones[b].part[k],
+                    get(step.lag.empty() ? step.relaxation : step.lag, zones[b].node[k]));
       for (std::size_t k = 0; moves && k < mass[b].node.size(); ++k)
       {
         const unsigned int node = mass[b].node[k];

@@ -324,7 +324,9 @@ namespace Voussoir
         if (zone_names[i] == zone.name)
           damped[i].young = zone.scale * materials[i].young;
     }
-    if (!differ)
+    const bool has_undamped_rock =
+        scene.is_for_modes && scene.foundation.model == "massless"; // ratios of modes
+    if (!differ && !(has_undamped_rock && structure.damping.relaxes()))
       return;
     Structure scaled = assemble_structure(*model, damped, scene.elements.incompatible_modes);
     for (std::size_t b = 0; b < structure.bodies.size(); ++b)

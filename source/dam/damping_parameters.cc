@@ -55,7 +55,7 @@ namespace Voussoir
   void DampingParameters::add_choices(ModelChoices &choices) const
   {
     for (const double other : {.03, .1})
-      if (ratio != other)
+      if (ratio != other && zones.empty()) // zones keep their ratios
         choices.add("material", "damping " + number_text(100. * other) + " %", "Damping/Ratio", other);
   }
 
@@ -120,11 +120,12 @@ namespace Voussoir
     {
       const std::string what = "Entry \"Damping/Zones\": zone \"" + zone + "\"";
       const double      value = number_in_unit(text, "-", what);
-      if (zone_name(zone).empty() || !(value > 0. && value <= largest_uniform) ||
-          !ratios.emplace(zone_name(zone), value).second)
+      if (zone_name(zone).empty() || !(value > 0. && value <= largest_uniform))
         throw InputError(what + " cannot have the damping ratio \"" + text +
-                         "\". Give each zone once, with a ratio above 0 and up to " +
-                         number_text(largest_uniform) + ", as in \"heel: 0.03\".");
+                         "\". Give a ratio above 0 and up to " + number_text(largest_uniform) +
+                         ", as in \"heel: 0.03\".");
+      if (!ratios.emplace(zone_name(zone), value).second)
+        throw InputError(what + " has two ratios. Remove one of them.");
     }
     return ratios;
   }
@@ -157,6 +158,12 @@ namespace Voussoir
     {
       if (least < most)
         zone.scale = fit.scale_of(zone.ratio, band_begin, band_end);
+      if (!(zone.scale > 0.))
+        throw InputError(
+            "Entry \"Damping/Zones\": the ratio " + number_text(zone.ratio) + " of " +
+            (zone.name.empty() ? std::string("the rest of the dam") : "zone \"" + zone.name + "\"") +
+            " cannot be reached with the relaxation times that all zones have in common. Bring the ratios closer "
+            "together, or the band and \"Damping/Reference frequency\" closer to the frequencies of the dam.");
       zone.error = fit.scaled(zone.scale).error_of(zone.ratio, band_begin, band_end);
     }
     result.zones = found;
@@ -196,15 +203,24 @@ namespace Voussoir
                 : std::string("the first frequency"));
   }
 
-  std::string DampingParameters::warning() const
+  std::string DampingParameters::warning(std::vector<Damping::Zone> in_dam) const
   {
     if (!is_uniform() || !(ratio > 0.))
       return "";
-    const auto   error = relaxation().error_of(ratio, band_begin, band_end);
-    const double largest = std::max(-error.first, error.second);
-    return largest <= .05 ? ""
-                          : "the damping ratio differs from \"Damping/Ratio\" by up to " +
-                                number_text(std::round(1000. * largest) / 10.) +
-                                " % in its band. Increase \"Damping/Terms\", or narrow the band.";
+    if (in_dam.empty())
+      in_dam = {{"", ratio, 1., relaxation().error_of(ratio, band_begin, band_end)}};
+    const auto largest_of = [](const Damping::Zone &zone)
+    { return std::max(-zone.error.first, zone.error.second); };
+    const auto   zone = *std::max_element(in_dam.begin(), in_dam.end(),
+                                          [&](const Damping::Zone &a, const Damping::Zone &b)
+                                          { return largest_of(a) < largest_of(b); });
+    const double largest = largest_of(zone);
+    if (largest <= (in_dam.size() > 1 ? .1 : .05))
+      return "";
+    return "the damping ratio" + (zone.name.empty() ? "" : " of zone \"" + zone.name + "\"") +
+           " differs from its entry by up to " + number_text(std::round(1000. * largest) / 10.) +
+           " % in its band. " +
+           (in_dam.size() > 1 ? "Bring the ratios of the zones closer together, or narrow the band."
+                              : "Increase \"Damping/Terms\", or narrow the band.");
   }
 } // namespace Voussoir

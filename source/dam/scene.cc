@@ -427,7 +427,7 @@ namespace Voussoir
       choices.add("numerics", "twice the time step", "Dynamics/Steps per sample", .5 * steps_per_sample,
                   true);
     if (!is_explicit() && foundation.model == "rigid" && damping.model != "Rayleigh" &&
-        !reservoir.is_meshed())
+        reservoir.model != "incompressible")
       choices.add("numerics", "explicit scheme", {{"Dynamics/Scheme", "explicit"}}, true);
     if (!has_single_factors() && !is_explicit())
       choices.add("numerics", "factors in single precision", {{"Dynamics/Factors", "single"}}, true);
@@ -523,6 +523,10 @@ namespace Voussoir
              "\"Damping/Model\" to uniform");
     if (reservoir.model == "incompressible")
       refuse("has no incompressible water. Set \"Reservoir/Model\" to acoustic");
+    if (mass_scaling > 0. && reservoir.is_meshed())
+      throw InputError(
+          "Entry \"Dynamics/Mass scaling\" does not consider compressible water, which shortens the critical "
+          "step, too. Remove the entry, or set \"Reservoir/Model\" to Westergaard.");
     if (mass_scaling > 0. && mesh.source != "file")
       throw InputError(
           "Entry \"Dynamics/Mass scaling\" is for meshes from files. Remove it, and enlarge the smallest elements of the "

@@ -142,6 +142,7 @@ namespace Voussoir
     impulse.assign(3 * structure.pairs.size(), 0.);
     const Unknowns u_start = now.u;
     now.relaxation.mean.assign(now.u.size(), 0.);
+    now.relaxation.lag.assign(now.relaxation.Ku.size(), 0.);
     outer.assign(now.u.size(), 0.);
     const double end = now.time + dt;
     for (unsigned int k = 0; k < n_steps; ++k)
@@ -193,13 +194,17 @@ namespace Voussoir
       const std::size_t begin = 3 * per_chunk * chunk, end = std::min(begin + 3 * per_chunk, 3 * n);
       double            w[3 * per_chunk], f[3 * per_chunk];
       structure.damping.relaxed(now.relaxation, now.u, now.Ku, begin, end, w, f);
-      double       *mean = now.relaxation.mean.data() + begin, *v = next.data() + begin;
+      double *mean = now.relaxation.mean.data() + begin, *v = next.data() + begin,
+             *lag = now.relaxation.lag.empty() ? nullptr : now.relaxation.lag.data() + begin;
+      const double *u_now = now.u.data() + begin;
       const double *before = now.load.data() + begin, *after = load.data() + begin,
                    *other = outer.data() + begin, *old = now.v.data() + begin, part = 1. / n_steps;
 #pragma omp simd
       for (std::size_t k = 0; k < end - begin; ++k)
       {
         mean[k] += part * w[k];
+        if (lag != nullptr)
+          lag[k] += part * (w[k] - u_now[k]);
         f[k] = (1. - share) * before[k] + share * after[k] + other[k] - f[k];
         v[k] = keep * old[k];
       }

@@ -126,7 +126,8 @@ namespace Voussoir
     for (double &f : force)
       f /= motion.dt;
     use({statics.elastic(u_before), statics.elastic(state.u), acceleration, force, ground, velocity,
-         motion.dt, dam->water ? dam->water->mean_force() : std::vector<Vector3>(), state.relaxation.mean});
+         motion.dt, dam->water ? dam->water->mean_force() : std::vector<Vector3>(), state.relaxation.mean,
+         state.relaxation.lag});
   }
 
   double RunState::largest_energy() const

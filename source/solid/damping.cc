@@ -165,13 +165,23 @@ namespace Voussoir
 
   double Relaxation::scale_of(const double ratio, const double lowest, const double highest) const
   {
-    double scale = 1.;
-    for (unsigned int pass = 0; pass < 20; ++pass)
+    const auto error = [&](const double scale) // of the mean
     {
-      const auto error = scaled(scale).error_of(ratio, lowest, highest);
-      scale /= 1. + .5 * (error.first + error.second);
+      const auto ends = scaled(scale).error_of(ratio, lowest, highest);
+      return ends.first + ends.second;
+    };
+    double     low = 0., high = 1.;
+    const auto at_rest = [&](const double scale) { return scaled(scale).modulus(0.).real(); };
+    while (error(high) < 0. && at_rest(1.2 * high) > least_static)
+    {
+      low = high;
+      high *= 1.2;
     }
-    return scale;
+    if (error(high) < 0.)
+      return 0.;
+    for (unsigned int pass = 0; pass < 40; ++pass)
+      (error(.5 * (low + high)) < 0. ? low : high) = .5 * (low + high);
+    return .5 * (low + high);
   }
 
   std::complex<double> Relaxation::pole(const double w) const

@@ -52,6 +52,7 @@ namespace Voussoir
     std::vector<Vector3> water = {};
 
     Unknowns relaxation = {}; ///< DampingMemory::mean of the step, or empty [m]
+    Unknowns lag = {};        ///< DampingMemory::lag, or empty [m]
   };
 
   /** Forces of the foundation on the bases of the monoliths. They are the residuals of the equations of

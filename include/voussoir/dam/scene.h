@@ -62,8 +62,9 @@ namespace Voussoir
     /** Returns the damping in words. @p first_frequency as in law(); @p zones: Damping::zones. */
     std::string in_words(double first_frequency, const std::vector<Damping::Zone> &zones = {}) const;
 
-    /** Returns a warning if the ratio differs by more than 5 % in its band, or an empty string. */
-    std::string warning() const;
+    /** Returns a warning if the ratio differs by more than 5 % in its band, of zones by 10 %, or an empty string.
+     * @p in_dam: Damping::zones. */
+    std::string warning(std::vector<Damping::Zone> in_dam) const;
   };
 
   /** Parameters of the subsection "Joints": joint laws and their parameters. */

@@ -27,7 +27,7 @@ namespace Voussoir
     archive &s.time &s.u &s.v &s.force &s.load &s.Ku &s.base_velocity &s.energy &s.memory;
     archive &s.carried.residual &s.carried.moved &s.carried.resisted &s.carried.dt &s.carried.gap;
     archive &s.relaxation.u_static &s.relaxation.Ku_static &s.relaxation.d &s.relaxation.Kd &s.relaxation
-        .mean                                                                               &s.relaxation.Ku;
+        .mean &s.relaxation.lag &s.relaxation.Ku;
   }
 } // namespace Voussoir
 

@@ -18,6 +18,9 @@ namespace Voussoir
    * and the memory variables xi_l belong to nodes. */
   struct Relaxation
   {
+    static constexpr double least_static =
+        .05; ///< smallest static modulus over the given one, of scale_of() [-]
+
     std::vector<double> frequency, weight; ///< omega_l [1/s] and Y_l [-] of each mechanism
     double              unrelaxed = 1.;    ///< modulus at infinite frequency over the given modulus [-]
 
@@ -43,7 +46,8 @@ namespace Voussoir
     /** Returns the body whose modulus differs from the given one by @p scale times as much. */
     Relaxation scaled(double scale) const;
 
-    /** Returns the scale of the body with the damping ratio @p ratio in the band: errors of equal size at its ends. */
+    /** Returns the scale of the body with the damping ratio @p ratio in the band: errors of equal size at its ends. Zero:
+     * the static modulus of such a body would be below #least_static. */
     double scale_of(double ratio, double lowest, double highest) const;
 
     /** Returns the smallest and the largest relative error of the damping ratio in a band [-]. */
@@ -57,6 +61,7 @@ namespace Voussoir
     Unknowns              u_static, Ku_static; ///< static state, in which the body is relaxed
     std::vector<Unknowns> d, Kd;               ///< of each mechanism: u - xi in Relaxation
     Unknowns mean; ///< mean of w in Damping over the last time step, minus the mean of u at its ends [m]
+    Unknowns lag;  ///< mean of w - u over the last time step of several steps h, with zones; or empty [m]
     Unknowns Ku;   ///< K_c u [N]; empty if all zones have the same ratio: K_c = K
 
     /** Returns K_c u. @p of_body: K u. */
