@@ -63,13 +63,18 @@ def points(scene, reference, options):
 def draw(panel, scene, rows, sizes):
     for size, colour in zip(sizes, COLOURS):
         implicit = [row for row in rows if row[0] == size and row[1]]
-        panel.loglog([row[2] for row in implicit], [row[3] for row in implicit], "o-", color=colour,
-                     label=f"trapezoidal, {size:g} times the elements")
+        panel.loglog([row[2] for row in implicit], [row[3] for row in implicit], "o-", color=colour, label=f"trapezoidal, {size:g} times the elements")
+        for row in implicit:
+            panel.annotate(f"{10 / row[1]:g} ms", row[2:4], xytext=(6, 4), textcoords="offset points", fontsize=8)
         explicit = next(row for row in rows if row[0] == size and not row[1])
-        panel.loglog(explicit[2], explicit[3], "*", color=colour, markersize=14, label=f"explicit, {size:g}")
-    panel.set(title=scene, xlabel="CPU seconds per second of the earthquake", ylabel="error of the largest openings [%]")
+        panel.loglog(explicit[2], explicit[3], "*", color=colour, markersize=14, label=f"explicit, {size:g} times the elements")
+    panel.set(title=scene, xlabel="CPU seconds per second of the earthquake", ylabel="error of the largest openings [%]",
+              ylim=(None, 2.2 * max(row[3] for row in rows)), xlim=(None, 1.5 * max(row[2] for row in rows)))
+    for axis in (panel.xaxis, panel.yaxis):
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_formatter(lambda x, _: f"{x:g}" if f"{x:e}"[0] in "235" else "")
     panel.grid(True, which="both", alpha=.3)
-    panel.legend(fontsize=8)
+    panel.legend(fontsize=8, loc="upper right")
 
 
 def main():

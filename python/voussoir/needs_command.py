@@ -232,13 +232,14 @@ class Needs:
             print(f"\nSmallest scene, attempt {k + 1}: {'; '.join(names)}")
             attempt = {"rows": names, "settings": changes, **self.compare(f"smallest {k + 1}", chosen, changes)}
             attempts.append(attempt)
-            if attempt["holds"] and (kept is None or attempt["cost"] < kept[1]["cost"]):
+            if attempt["holds"] and attempt["cost"] < (kept[1]["cost"] if kept else 1.):
                 kept = text, attempt, chosen
             elif attempt["holds"] is None or k + 1 == ATTEMPTS:
                 break
             else:
                 new = [row for row in chosen if not kept or row not in kept[2]]
-                back = (to_take_back(new, attempt["changes"], attempt["counts"]) if "changes" in attempt
+                missed = attempt.get("own_scheme", attempt)
+                back = (to_take_back(new, missed["changes"], missed["counts"]) if "changes" in missed
                         else max(new, key=lambda row: size_of(row["changes"], row["counts"])))
                 print(f"    {'No gain' if attempt['holds'] else 'The promise does not hold'}; taken back: {back['group']}: {back['name']}")
                 chosen, candidates, others = ([row for row in rows if row is not back] for rows in (chosen, candidates, others))

@@ -228,7 +228,7 @@ namespace Voussoir
   DampingMemory Damping::memory_of(const Unknowns &u, const Unknowns &Ku, const Unknowns &damped) const
   {
     const std::vector<Unknowns> zeros(c.size(), Unknowns(u.size(), 0.));
-    return relaxes() ? DampingMemory{u, damped.empty() ? Ku : damped, zeros, zeros, zeros[0], damped}
+    return relaxes() ? DampingMemory{u, damped.empty() ? Ku : damped, zeros, zeros, zeros[0], {}, damped}
                      : DampingMemory();
   }
 
