@@ -198,7 +198,7 @@ def zones():
         (f"Damping/Zones={value}", ("Damping/Zones", *parts)) for value, *parts in (
             ("hell: 0.03", "\"hell\"", "Did you mean \"heel\"?"), ("heel: 0", "\"heel\"", "above 0"), ("heel: 0.3", "up to 0.25"), ("heel: much", "\"much\""),
             ("heel: 0.03, Heel: 0.02", "two ratios"))] + [("Damping/Ratio=0", "Damping/Zones=heel: 0.03", ("Damping/Zones", "Damping/Ratio")),
-        ("Damping/Zones=heel: 0.25", "Damping/Reference frequency=0.1", ("0.25", "closer together"))])
+        ("Motion/Source=artificial", "Motion/Duration=1", "Damping/Zones=heel: 0.25", "Damping/Reference frequency=0.1", ("0.25", "closer together"))])
     write("letters.msh", Path("entries.msh").read_text().replace("heel", "Höcker"))
     refused([scene("letters", "letters.msh"), "--validate"], "letters.msh", "Höcker'", "letters")
     refuse([scene("generated", "entries.msh"), "--validate"], (

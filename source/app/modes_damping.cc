@@ -76,7 +76,7 @@ namespace Voussoir
   std::string ModesDamping::warning() const
   {
     if (damping.is_uniform())
-      return damping.warning();
+      return damping.warning(law.zones);
     if (damping.mass_coefficient >= 0.)
       return "";
     std::size_t n_off = 0, worst = 0;
