@@ -178,6 +178,25 @@ namespace Voussoir
       if (!f.empty() && !dam.structure.has_zones())
         log.line("          first modes of the tied dam, and factor by the damping: %s", moved.str().c_str());
     }
+
+    /** Writes the critical step, and the steps of the explicit scheme or whether it is worth a trial. */
+    void report_explicit(const RunState &run, Log &log)
+    {
+      const Dam   &dam = *run.dam;
+      const Scene &scene = dam.scene;
+      if (dam.facts.critical_step > 0.)
+        log.line("Critical  step of an explicit scheme for the dam %.4g ms%s, from the elements at %s",
+                 1e3 * dam.facts.critical_step,
+                 scene.is_explicit() ? "" : " (without rock and Rayleigh damping)",
+                 dam.facts.critical_place.c_str());
+      if (dam.facts.critical_step > .1 * run.motion.dt && !scene.is_explicit() && // see benchmarks/schemes.py
+          scene.foundation.model == "rigid" && scene.impact_rule == "mean-force")
+        log.line(
+            "          \"Dynamics/Scheme\" = explicit is probably two to five times cheaper at equal error");
+      if (run.n_steps > 0 && scene.is_explicit())
+        log.line("Explicit  %u steps of %.4g ms in a time step", scene.n_explicit,
+                 1e3 * run.motion.dt / scene.n_explicit);
+    }
   } // namespace
 
   void report_motion_warnings(const GroundMotion &motion, const Scene &scene, const std::string &name,
@@ -230,14 +249,7 @@ namespace Voussoir
     report_probes(dam, log);
     report_motion_and_warnings(run, log);
     report_motion_notes(run, log);
-    if (dam.facts.critical_step > 0.)
-      log.line("Critical  step of an explicit scheme for the dam %.4g ms%s, from the elements at %s",
-               1e3 * dam.facts.critical_step,
-               scene.is_explicit() ? "" : " (without rock and Rayleigh damping)",
-               dam.facts.critical_place.c_str());
-    if (run.n_steps > 0 && scene.is_explicit())
-      log.line("Explicit  %u steps of %.4g ms in a time step", scene.n_explicit,
-               1e3 * run.motion.dt / scene.n_explicit);
+    report_explicit(run, log);
     if (validate)
     {
       std::istringstream groups(dam.facts.groups);
