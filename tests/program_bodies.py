@@ -59,7 +59,7 @@ def force():
         """Sum of the modes after k time steps, 1 at the start at rest."""
         if scheme == "trapezoidal":
             return sum(a * cos(k * 2 * atan(w * dt / 2)) for w, a in modes)
-        return sum(a * cos((round(k * dt / h) + .5) * 2 * asin(w * h / 2)) / cos(asin(w * h / 2)) for w, a in modes)
+        return sum(a * cos(round(k * dt / h) * 2 * asin(w * h / 2)) for w, a in modes)
 
     write("release.txt", f"0 {pull}\n0 0\n")
     write("step.txt", f"time,force\n0,0\n0,{pull}\n")
