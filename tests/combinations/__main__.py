@@ -55,6 +55,11 @@ def first(case):
         raise
 
 
+def always_converges(scene):
+    """The equations of the paper and the proximal method can cycle (doc/failures.md), depending on the order of the nodes."""
+    return scene.get("Joints/Equations") != "paper" and scene.get("Contact/Method") != "proximal"
+
+
 def checked(case, relation):
     """Number of the scene, relation, verdict."""
     verdict = "holds"
@@ -65,6 +70,9 @@ def checked(case, relation):
         if relation is first:
             print(f"    no solution of scene {case.number}: {error}", flush=True)
     except Exception as error:  # pylint: disable=broad-except
+        if "did not converge" in str(error) and not always_converges(case.scene):
+            print(f"    no solution of scene {case.number}, {relation.__name__}: {error}", flush=True)
+            return case.number, relation.__name__, "does not apply"
         verdict = "failed"
         print(f"    FAILED scene {case.number}, {relation.__name__}: {'' if isinstance(error, Failed) else type(error).__name__ + ': '}{error}\n"
               f"        {case.net.choices.name(case.scene)}\n        cd {case.net.directory}; voussoir scene-{case.number}.prm", flush=True)
