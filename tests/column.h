@@ -183,8 +183,7 @@ namespace Columns
     return laws;
   }
 
-  /** What the joints take from the energy in each step by friction and impact: never negative if they create
-   * none. */
+  /** Largest energies that friction and impact in joints created in a step. Zero: the joints only took energy. */
   struct JointAccount
   {
     double friction = 0., impact = 0., total = 0.; ///< the largest that was created in a step [J]

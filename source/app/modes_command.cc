@@ -134,7 +134,7 @@ namespace Voussoir
       std::fflush(stdout);
     }
 
-    /** Highest monolith between open joints, on a rigid base and with added mass by Westergaard in place of meshed water. */
+    /** Highest monolith between open joints on a rigid base, with Westergaard's added mass in place of meshed water. */
     struct FreeMonolith
     {
       std::string         name;

@@ -207,8 +207,8 @@ namespace Voussoir
         for (unsigned int lane = 0; lane < lanes; ++lane)
           gap[(3 * q + c) * lanes + lane] = view.pairs[q].gap[c];
     const double half = .5 * model.dt / model.n_steps;
-    for (std::size_t k = 0; k < 3 * view.n_nodes;
-         ++k) // velocity in the middle of a step before the start, as Leapfrog
+    // As Leapfrog::start(): the velocity begins in the middle of a step before the start.
+    for (std::size_t k = 0; k < 3 * view.n_nodes; ++k)
       for (std::size_t lane = 0; lane < ground.size(); ++lane)
         for (unsigned int c = 0; c < 9; ++c)
           v[k * lanes + lane] -=

@@ -394,7 +394,7 @@ namespace Voussoir
     watch_total += watch.seconds();
   }
 
-  /** Adds the effect of the dam's displacement @p u_end at the end of the step to pi, advances phi, and adds the works. */
+  /** Adds the effect of the dam's displacement @p u_end at the end of the step to pi. Advances phi and the works. */
   void AcousticWater::correct(const Unknowns &u_end)
   {
     const double        rho = properties.density;

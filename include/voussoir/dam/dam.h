@@ -63,7 +63,7 @@ namespace Voussoir
     /** Returns the structure of the static state: #structure with the sustained moduli. */
     Structure sustained_structure() const;
 
-    /** Sets the damping of the structure, for the first frequency of the tied dam [Hz], see DampingParameters::law(). */
+    /** Sets the damping of the structure. @p first_frequency: as in DampingParameters::law() [Hz]. */
     void set_damping(double first_frequency);
 
     const Scene             &scene;      ///< input file

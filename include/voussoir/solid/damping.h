@@ -18,8 +18,8 @@ namespace Voussoir
    * and the memory variables xi_l belong to nodes. */
   struct Relaxation
   {
-    static constexpr double least_static =
-        .05; ///< smallest static modulus over the given one, of scale_of() [-]
+    /** Smallest static modulus over the given one that scale_of() allows [-]. */
+    static constexpr double least_static = .05;
 
     std::vector<double> frequency, weight; ///< omega_l [1/s] and Y_l [-] of each mechanism
     double              unrelaxed = 1.;    ///< modulus at infinite frequency over the given modulus [-]
@@ -46,8 +46,8 @@ namespace Voussoir
     /** Returns the body whose modulus differs from the given one by @p scale times as much. */
     Relaxation scaled(double scale) const;
 
-    /** Returns the scale of the body with the damping ratio @p ratio in the band: errors of equal size at its ends. Zero:
-     * the static modulus of such a body would be below #least_static. */
+    /** Returns the scale of the body with the damping ratio @p ratio in the band, with errors of equal size of both
+     * signs. Zero: the static modulus of such a body would be below #least_static. */
     double scale_of(double ratio, double lowest, double highest) const;
 
     /** Returns the smallest and the largest relative error of the damping ratio in a band [-]. */
@@ -68,8 +68,8 @@ namespace Voussoir
     const Unknowns &damped(const Unknowns &of_body) const { return Ku.empty() ? of_body : Ku; }
   };
 
-  /** Damping of the dam: Rayleigh damping C = mass M + stiffness K, and relaxation of the stiffness. The elastic force of
-   * a displacement u after the static state u_s is K w with
+  /** Damping of the dam: Rayleigh damping C = mass M + stiffness K, and relaxation of the stiffness. The elastic force
+   * of a displacement u after the static state u_s is K w with
    *
    *     w = u_s + modulus (u - u_s + sum_l c_l d_l),    d d_l / dt = du / dt - d_l / tau_l.
    *
@@ -110,8 +110,8 @@ namespace Voussoir
      * with more_stiffness(). @p Ku: at the start of the step [N]. */
     void add_known_forces(double dt, const DampingMemory &memory, const Unknowns &Ku, Unknowns &rhs) const;
 
-    /** Advances the memory by a step of length @p dt [s] from @p u_old and @p Ku_old to @p u and @p Ku. Returns the energy
-     * that the mechanisms dissipate [J]. @p damped: K_c u at the end, or empty. */
+    /** Advances the memory by a step of length @p dt [s] from @p u_old and @p Ku_old to @p u and @p Ku. Returns the
+     * energy that the mechanisms dissipate [J]. @p damped: K_c u at the end, or empty. */
     double advance(double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
                    const Unknowns &Ku, DampingMemory &memory, Unknowns damped) const;
 
@@ -121,8 +121,8 @@ namespace Voussoir
     };
 
     /** Advances the memory by a step of the leapfrog rule, exactly for a constant velocity. Returns the energy that the
-     * body stores in the middle of the step, minus u_old K u / 2, and what it dissipates in the step. The rule needs the
-     * factor sqrt(modulus (1 + sum c)) for its critical step. */
+     * body stores in the middle of the step, minus u_old K u / 2, and what it dissipates in the step. The rule needs
+     * the factor sqrt(modulus (1 + sum c)) for its critical step. */
     Energies advance_leapfrog(double dt, const Unknowns &u_old, const Unknowns &Ku_old, const Unknowns &u,
                               const Unknowns &Ku, DampingMemory &memory, Unknowns damped) const;
 

@@ -13,7 +13,8 @@ namespace Voussoir
   /** Coupling of the water nodes at the wet face with the nodes of the dam.
    *
    * Each face of the dam is divided into parts of at most a quarter of the water's element size. The area vector of a
-   * part belongs to the nearest water node of the same monolith. So each monolith has its exact area, and no water node acts on two monoliths. */
+   * part belongs to the nearest water node of the same monolith. So each monolith has its
+   * exact area, and no water node acts on two monoliths. */
   struct WaterCoupling
   {
     /** Area vector that a water node shares with a node of the dam. */
