@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Seconds of wall time per second of earthquake of the benchmark dam, jointed and tied, in one run.
 
-Usage: benchmarks/speed.py [--voussoir build/voussoir] [SCENE.prm ...]     (default: rigid28 with FJA, FJB, tied)
+Usage: benchmarks/speed.py [--voussoir build/voussoir] [--duration 2.56] [SCENE.prm ...]     (default: rigid28 with FJA, FJB, tied)
        benchmarks/speed.py --before OTHER/voussoir [--repeat 3] [--duration 1.28] SCENE.prm ...
 Prints a table for doc/performance.md; with --before the medians of both programs, run in turn, and their ratios with the range of the pairs.
 Input files of the other version, where they differ: --scenes-before OTHER/prm (the files with the same names).
@@ -58,7 +58,7 @@ def main():
     parser.add_argument("--before", help="another program to compare with")
     parser.add_argument("--scenes-before", metavar="DIRECTORY", help="with --before: its input files")
     parser.add_argument("--repeat", type=int, default=3)
-    parser.add_argument("--duration", default="1.28", help="of the motion, with --before [s]")
+    parser.add_argument("--duration", help="of the motion [s]; default: of the scene, with --before 1.28")
     parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE", help="with --before")
     parser.add_argument("--set-now", action="append", default=[], metavar="ENTRY=VALUE",
                         help="with --before, which may be the same program: of the second one only")
@@ -74,23 +74,24 @@ def main():
         for scene in arguments.scenes:
             scenes = (os.path.join(arguments.scenes_before or os.path.dirname(scene), os.path.basename(scene)), scene)
             compare((arguments.before, arguments.voussoir), scenes,
-                    ["Motion/Duration=" + arguments.duration, *arguments.set], arguments.set_now, arguments.repeat)
+                    ["Motion/Duration=" + (arguments.duration or "1.28"), *arguments.set], arguments.set_now, arguments.repeat)
         return
     cases = [(scene, []) for scene in arguments.scenes]
     if not cases:
         dam = os.path.join(ROOT, "prm", "rigid28.prm")
         cases = [(dam, ["Joints/Model=" + law]) for law in ("FJA", "FJB", "tied")]
-    print("| scene | law | unknowns | pairs | s per s | ms per step: substitutions | joints | stepping | stresses | output "
+    more = ["Motion/Duration=" + arguments.duration] if arguments.duration else []
+    print("| scene | law | unknowns | pairs | s per s | set-up and static [s] | ms per step: substitutions | joints | stepping | stresses | output "
           "| Newton mean (max) | GMRES per step | memory [GiB] |")
-    print("|" + "---|" * 13)
+    print("|" + "---|" * 14)
     for scene, settings in cases:
-        s = run(arguments.voussoir, scene, settings)
+        s = run(arguments.voussoir, scene, settings + more)
         seconds, newton = s["seconds"], s["newton_iterations"]
         step = [f"{1e3 * seconds[stage] / s['steps']:.1f}"
                 for stage in ("substitutions", "joints", "stepping", "stresses", "output")]
         print("|", " | ".join(
             [s["scene"], s["law"], str(s["mesh"]["dofs"]), str(s["mesh"]["pairs"]),
-             f"{seconds['per_second_of_earthquake']:.2f}", *step, f"{newton['mean']:.2f} ({newton['max']:.0f})",
+             f"{seconds['per_second_of_earthquake']:.2f}", f"{seconds['setup'] + seconds['static']:.1f}", *step, f"{newton['mean']:.2f} ({newton['max']:.0f})",
              f"{newton['linear_iterations_mean']:.1f}", f"{s['memory_bytes'] / 2**30:.2f}"]), "|", flush=True)
 
 
