@@ -10,7 +10,6 @@ import json
 import math
 import os
 import re
-import shlex
 import shutil
 import subprocess
 import sys
@@ -272,7 +271,7 @@ def readme():
     Path("prm").symlink_to(ROOT / "prm")
     states(ROOT / "README.md", "quickstart", "prm/quickstart.prm")
     text, example = ((ROOT / name).read_text() for name in ("README.md", "examples/ensemble/README.md"))
-    lines = re.findall(r"^(?:\| .*\[.*|    build/voussoir examples.*)$", text, re.M)
+    lines = re.findall(r"^(?:\| .* \[(?:mm|MPa)\] .*|    build/voussoir examples.*)$", text, re.M)
     expect(len(lines) == 4, f"{lines}")
     for line in lines:
         expect(line.replace("build/", "") in example, f"examples/ensemble/README.md does not have: {line}")
@@ -464,5 +463,5 @@ def site_search():
 
 
 if __name__ == "__main__":
-    run_cases(package, arcs, notebook, editor, site, readme, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records,,
+    run_cases(package, arcs, notebook, editor, site, readme, tutorial_1_first_run, tutorial_2_own_dam, tutorial_3_own_records,
               tutorial_4_own_law, studies, report)
