@@ -20,9 +20,11 @@ from program import ROOT, add_program_argument, run, simulate
 EXPLICIT = {"Dynamics/Scheme": "explicit", "Dynamics/Steps per sample": "1"}
 DAMS = {  # scene, settings, and motions relative to --motions
     "arch210, 5 joints": ("prm/quickstart.prm", EXPLICIT, 4),
+    "arch210, 5 joints, without matching in time": ("prm/quickstart.prm", {**EXPLICIT, "Motion/Matching iterations": "0"}, 4),
     "arch210, 28 joints": ("prm/rigid28.prm", EXPLICIT, 1),
     "arch210, 5 joints with keys": ("prm/coarse.prm", {"Joints/Model": "KSM"}, 1),
     "arch210, 5 joints, massless rock": ("prm/massless_fja.prm", {}, 1),
+    "arch210, 5 joints, rock with mass": ("prm/rock_fja.prm", EXPLICIT, 1),
     "Pacoima from its table of arcs, 10 joints": ("benchmarks/pacoima.prm", {
         **EXPLICIT, "Joints/Model": "FJA", "Foundation/Model": "rigid", "Motion/Source": "artificial", "Statics/Self-weight": "staged"}, 1),
 }

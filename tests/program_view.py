@@ -38,6 +38,8 @@ def view():
     write_scene()
     text = runs("view", "scene.prm", "--output", "dam")
     expect("upstream 2" in text, text)
+    limit = runs("scene.prm", "--validate").split("explicit scheme for the dam ")[1].split()[0]  # [ms]
+    expect(f"critical step {limit} ms at (" in text, text)
     small = picture_of("dam/view.png")
     mesh, surfaces = read_vtu("dam/mesh.vtu"), read_vtu("dam/surfaces.vtu")
     volume = [set() for _ in range(4)]

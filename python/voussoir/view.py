@@ -9,6 +9,7 @@ DIR/surfaces.vtu  the faces in groups, with the number of the group (doc/mesh.md
 DIR/mesh.msh      the mesh as the program has it, for gmsh
 """
 
+import json
 from pathlib import Path
 
 import numpy as np
@@ -190,6 +191,15 @@ def sheet(mesh, level, wet, title, path):
     plt.close(figure)
 
 
+def critical_step(scene, overrides):
+    """The critical step of the explicit scheme with its place, in words; empty without a motion or if the input is invalid."""
+    try:
+        facts = json.loads(call(scene, "--validate", "--json", *set_options(overrides)))
+    except InputError:
+        return ""
+    return f"critical step {1e3 * facts['critical_step']:.4g} ms at {facts['critical_place']}" if "critical_step" in facts else ""
+
+
 def main():
     parser = Parser(prog="voussoir view", description=__doc__)
     parser.add_argument("scenes", nargs="*", metavar="SCENE.prm")
@@ -214,10 +224,13 @@ def main():
                              f"{output / 'mesh.msh'} is the mesh as it is.")
     upstream = mesh.on(UPSTREAM)
     wet = density > 0. and len(upstream) > 0 and level > upstream[:, :, 2].min()
+    critical = critical_step(scene, options.overrides)
     sheet(mesh, level, wet, f"{scene.stem}: {(mesh.volume < FIRST_ROCK).sum()} cells of the dam, {len(set(mesh.volume[mesh.volume < FIRST_ROCK]))} "
-          f"monoliths, joints {entries['Joints/Model']}", output / "view.png")
+          f"monoliths, joints {entries['Joints/Model']}{critical and '; ' + critical}", output / "view.png")
     write_vtu(output / "mesh.vtu", mesh.points, mesh.cells, 12, cell_data={"monolith": mesh.volume})
     write_vtu(output / "surfaces.vtu", mesh.points, mesh.quads, 9, cell_data={"group": mesh.surface})
     groups = ", ".join(f"{name} {number}" for (dimension, number), name in sorted(mesh.names.items()) if dimension == 2)
-    print(f"Groups    {groups}\nPicture   {output / 'view.png'}\nParaView  {output / 'mesh.vtu'}, {output / 'surfaces.vtu'}")
+    print(f"Groups    {groups}\nExplicit  {critical or 'no critical step, because there is no motion or the input is invalid'}\n"
+          f"Picture   {output / 'view.png'}\n"
+          f"ParaView  {output / 'mesh.vtu'}, {output / 'surfaces.vtu'}")
     return 0

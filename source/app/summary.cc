@@ -208,6 +208,8 @@ namespace Voussoir
     if (run.n_steps > 0)
       json.add("motion", json_of_motion(run)).add_texts("motion_notes", run.motion.notes);
     json.add("steps", run.n_steps).add("time_step", run.motion.dt);
+    if (dam.facts.critical_step > 0.)
+      json.add("critical_step", dam.facts.critical_step).add("critical_place", dam.facts.critical_place);
     dam.foundation->add_to_summary(json, run.grid());
     json.add("memory_bytes", json_of_memory(scene)).add("warnings", log.warnings());
     return json;

@@ -45,9 +45,14 @@ namespace Voussoir
       return is_soft(0) ? ImpactRows::none : is_soft(1) || is_soft(2) ? ImpactRows::normal : ImpactRows::all;
     }
 
-    Vector3 scaled(const double factor, const Vector3 &x)
+    /** Returns the energy that a pair dissipated in the step with the impulse @p i, by friction [J]. @p change: of its
+     * gap [m]. */
+    double dissipated_by(const JointLaw &law, const Vector3 &i, const Vector3 &change, const double dt,
+                         const PairHistory &history)
     {
-      return {{factor * x[0], factor * x[1], factor * x[2]}};
+      const Vector3     f = {{i[0] / dt, i[1] / dt, i[2] / dt}};
+      const ElasticLaw *elastic = law.elastic_law();
+      return -dot(f, change) - (elastic ? elastic->stored_change(f, history) : 0.);
     }
 
     const Names<ImpactRule> names_of_rules = {
@@ -155,9 +160,7 @@ namespace Voussoir
         rows = ImpactRows::normal;
       step.rows.push_back(rows);
       step.active.push_back(active);
-      dissipated -= dot(step.applied.back(), get(change, p)) / dt;
-      if (const ElasticLaw *elastic = law.elastic_law())
-        dissipated -= elastic->stored_change(scaled(1. / dt, step.applied.back()), histories[p]);
+      dissipated += dissipated_by(law, step.applied.back(), get(change, p), dt, histories[p]);
     }
     bool is_safe = solve_cluster(cluster, histories, step);
     if (is_safe)
@@ -235,7 +238,7 @@ namespace Voussoir
         gain += .5 * f[c] * (2. * jump[c] + gained[c]);
         size += std::abs(f[c] * jump[c]) + std::abs(f[c] * gained[c]);
       }
-      if (gain > -dot(applied, get(change, p)) / dt + 1e-12 * size)
+      if (gain > dissipated_by(law, applied, get(change, p), dt, history) + 1e-12 * size)
         allowed = law.stop_normal(of_pair(p), jump, applied, system.active_surfaces()[p]);
     }
     add_impulse(pair, allowed - applied, v);

@@ -247,6 +247,20 @@ namespace Voussoir
     return history;
   }
 
+  /** Returns the force @p f of a pair with its gap b + H f, without a gain of energy: where the slip of two steps has the
+   * direction of the friction, because the slip reverses, the friction is reduced until its work is zero. The normal
+   * gap is kept. */
+  Vector3 Leapfrog::without_gain(const std::size_t p, const Matrix3 &H, const Vector3 &b,
+                                 const Vector3 &f) const
+  {
+    const Vector3 t{{0., f[1], f[2]}}, Ht = H * t;
+    const double  work = dot(t, sum_of(H * f, b) - get(gap_before, p));
+    if (!(work > 0.) || !(laws.of_pair[p]->flat_friction() > 0.))
+      return f;
+    const double less = std::min(1., work / (dot(t, Ht) - Ht[0] * Ht[0] / H[0]));
+    return {{f[0] + less * Ht[0] / H[0], (1. - less) * f[1], (1. - less) * f[2]}};
+  }
+
   /** Adds the impulse of a joint force to #next. */
   void Leapfrog::apply(const std::size_t p, const Vector3 &f)
   {
@@ -333,7 +347,7 @@ namespace Voussoir
                          for (unsigned int event = 0;
                               event < most_events && apply_event(p, f, sum_of(H * f, b), 1.); ++event)
                            f = laws.of_pair[p]->solve(H, b, history_of(p));
-                         apply(p, f);
+                         apply(p, without_gain(p, H, b, f));
                        });
     for (const auto &cluster : clusters.clusters)
       result.sweeps = std::max(result.sweeps, solve_with_events(cluster));

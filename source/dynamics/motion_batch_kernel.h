@@ -140,6 +140,19 @@ VOUSSOIR_INLINE void solve_friction(const BatchPair &pair, const Vector b[3], Ve
     f[c] = closed ? f[c] : zero;
 }
 
+/** Reduces the friction of a slip that reverses until its work is zero, as Leapfrog::without_gain(). @p moved1, @p moved2:
+ * slip of the last step. */
+VOUSSOIR_INLINE void avoid_gain(const BatchPair &pair, const Vector b[3], const Vector moved1,
+                                const Vector moved2, Vector f[3])
+{
+  const Vector zero = {}, one = zero + 1.f, n = pair.H_1n * f[1] + pair.H_2n * f[2];
+  const Vector work = f[1] * (b[1] + pair.H_1n * f[0] + pair.H_11 * f[1] + moved1) +
+                      f[2] * (b[2] + pair.H_2n * f[0] + pair.H_22 * f[2] + moved2);
+  const Vector most = pair.H_11 * f[1] * f[1] + pair.H_22 * f[2] * f[2] - n * n / pair.H_nn + 1e-30f;
+  const Vector less = smaller(larger(work, zero) / most, one);
+  f[0] += less * n / pair.H_nn, f[1] -= less * f[1], f[2] -= less * f[2];
+}
+
 /** Solves the conditions of a joint without slip. @p b: gap without force. */
 VOUSSOIR_INLINE void solve_no_slip(const BatchPair &pair, const Vector b[3], Vector f[3])
 {
@@ -205,26 +218,27 @@ VOUSSOIR_INLINE void solve_pair(const BatchView &m, const Lanes &s, const std::s
   }
   const bool is_active = pair.kind != BatchPair::friction || any(b[0] < zero);
   if (is_active && pair.kind == BatchPair::friction)
+  {
     solve_friction(pair, b, f);
+    avoid_gain(pair, b, s.moved[3 * q + 1], s.moved[3 * q + 2], f);
+  }
   else if (is_active)
     solve_no_slip(pair, b, f);
   after[0] = b[0] + pair.H_nn * f[0] + pair.H_1n * f[1] + pair.H_2n * f[2];
   after[1] = b[1] + pair.H_1n * f[0] + pair.H_11 * f[1];
   after[2] = b[2] + pair.H_2n * f[0] + pair.H_22 * f[2];
   if (pair.kind == BatchPair::friction)
-  {
     after[0] = f[0] > zero ? larger(after[0], zero) : b[0];
-    after[1] += s.gap[3 * q + 1], after[2] += s.gap[3 * q + 2];
-  }
   if (is_active)
     kick<n_terms>(m, s, pair, f, works.input, works.internal);
   for (int c = 0; c < 3; ++c)
   {
     const std::size_t k = 3 * q + c;
-    const Vector      now = after[c] - s.gap[k];
+    const bool        is_slip = c > 0 && pair.kind == BatchPair::friction; // without the rounding of the gap
+    const Vector      now = is_slip ? after[c] : after[c] - s.gap[k];
     (c == 0 ? works.opening : works.friction) -= f[c] * (now + s.moved[k]);
     s.moved[k] = now;
-    s.gap[k] = after[c];
+    s.gap[k] = is_slip ? s.gap[k] + now : after[c];
     s.impulse[k] += f[c];
   }
 }

@@ -66,6 +66,7 @@ namespace Voussoir
     void         predict(double share, const Unknowns &load);
     Vector3      predicted(std::size_t p) const;
     PairHistory  history_of(std::size_t p) const;
+    Vector3      without_gain(std::size_t p, const Matrix3 &H, const Vector3 &b, const Vector3 &f) const;
     void         apply(std::size_t p, const Vector3 &f);
     bool         apply_event(std::size_t p, const Vector3 &force, const Vector3 &at, double limit);
     unsigned int solve_cluster(const PairClusters::Cluster &cluster, const std::vector<Vector3> &b,
