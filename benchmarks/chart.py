@@ -165,7 +165,7 @@ def draw(axes, scene, points, band, with_peers):
     if band:
         low, high = (100 * band[0] / 1.01, 100 * band[1] * 1.01)
         axes.axhspan(low, high, color="0.91", zorder=0, label="other motions")
-    axes.step([p[2] for p in front], [100 * p[3] for p in front], "-", where="post", color="0.45", linewidth=1.1, zorder=1, label="front")
+    axes.step([p[2] for p in front], [100 * p[3] for p in front], "-", where="post", color="0.45", linewidth=1.1, zorder=1, label="smallest error for the cost")
     for kind, (mark, edge, face, size) in MARKS.items():
         chosen = [p for p in points if p[0] == kind]
         axes.plot([p[2] for p in chosen], [100 * p[3] for p in chosen], mark, color=edge, markerfacecolor=face, markersize=size,

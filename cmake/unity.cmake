@@ -5,7 +5,7 @@
 #   2 deal.II's ParameterHandler: one group;
 #   1 another header of deal.II: one group;
 #   0 no header of deal.II: one group for each room.
-# Sources of base and contact stay alone, as programs link them without deal.II and MPI (doc/tutorials/5_own_law.md).
+# Sources of base and contact stay alone, as programs link them without deal.II and MPI (doc/tutorials/4_own_law.md).
 # Sources of kernels (*_kernels.cc, *_kernel.cc, *_factor.cc) have unnamed types of the same names and stay alone.
 
 # Sets OUT to the highest level of the headers that FILE reaches.

@@ -23,7 +23,7 @@ OTHERS = ("CONTRIBUTING.md", "CITATION.cff", "LICENSE")
 MATHJAX = Path("/usr/share/javascript/mathjax")
 NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.md
     "Start": ("index", "install", "tutorials/1_first_run", "limits", "comparison", "read_results", "pages"),
-    "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "ensembles", "tutorials/4_rock", "studies", "report",
+    "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "ensembles", "studies", "report",
                "messages", "parallel"),
     "Reference": ("input_file", "generated/entries", "generated/commands", "output", "generated/columns", "mesh", "loads", "python",
                   "base_joints", "generated/refused_pairs", "glossary", "changes"),
@@ -31,7 +31,7 @@ NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.
                                                                              "section", "snap_back", "bricks"))),
     "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
     "Evidence": ("verification", "performance", "paper", "failures"),
-    "Develop": ("CONTRIBUTING", "tutorials/5_own_law", "release"),
+    "Develop": ("CONTRIBUTING", "tutorials/4_own_law", "release"),
 }
 
 

@@ -23,7 +23,7 @@ def command():
     write_scene()
     arguments = ["accuracy", "scene.prm", "--seconds", "1", "--output", "out", "--for", "60%"]
     text = runs(*arguments)
-    for part in ("time step", "along", "up", "through", "s per s", "The scene as it is: error", " 60 %:"):
+    for part in ("time step", "along", "up", "through", "s per s", "The input file as it is: error", " 60 %:"):
         expect(part in text, f"'{part}' is missing: {text}")
     result = json.loads(Path("out/accuracy.json").read_text())
     bar = result["error_bars"]["max_opening"]

@@ -47,7 +47,7 @@ def scene(name, joints, along, up, through, rock="", more=""):
 
 def estimate(text):
     """Of a run, and more for each halving [bytes]."""
-    found = re.search(r"about ([\d.]+) GiB, and ([\d.]+) GiB more for each halved time step", text)
+    found = re.search(r"about ([\d.]+) GiB, and ([\d.]+) GiB more for each divided time step", text)
     expect(found, f"no estimate in {text}")
     return [float(x) * GIB for x in found.groups()]
 

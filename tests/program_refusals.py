@@ -18,7 +18,7 @@ import program_base  # noqa: E402
 from compare import scene  # noqa: E402
 from program_cohesive import SHORT  # noqa: E402
 from program_lift import LIFTS, wall  # noqa: E402
-from program_own_steps import OWN, ROCK  # noqa: E402
+from program_subcycling import OWN, ROCK  # noqa: E402
 from program_plane_strain import PLANE  # noqa: E402
 from program_spectrum import ARTIFICIAL  # noqa: E402
 from program_zones import CELLS  # noqa: E402
@@ -158,7 +158,7 @@ def intervals():
     expect(len(list(Path("time").glob("solution-*.vtu"))) == 6, "six solutions in 0.5 s")
 
 
-def own_steps():
+def subcycling():
     """What does not fit subcycled rock is refused before the run; --validate names the coupling."""
     write_scene()
     run = ["scene.prm", "--validate"]
@@ -277,4 +277,4 @@ def suite():
 
 
 if __name__ == "__main__":
-    run_cases(base, lift, gaps, cohesive, choices, damping, explicit, intervals, own_steps, zones, plane_strain, spectrum, suite)
+    run_cases(base, lift, gaps, cohesive, choices, damping, explicit, intervals, subcycling, zones, plane_strain, spectrum, suite)

@@ -491,7 +491,7 @@ def content():
     full = Reader("run/report.html")
     frequency = [float(row["frequency"]) for row in table("run/modes/modes.csv")]
     expect("Natural modes" in full.text and all(f"{k + 1}: {f:.3g} Hz" in full.text for k, f in enumerate(frequency)), "the modes are not on the page")
-    expect("1.2 % for the openings and 3.4 % for the zone means of tension, above its target of 2.0 %" in full.text, full.text[:3000])
+    expect("1.2 % for the openings and 3.4 % for the tensile stress, above its target of 2.0 %" in full.text, full.text[:3000])
     expect("What the scene needs" in full.text and "empty reservoir" in full.text and "+7.0" in full.text, "the table of needs is not on the page")
     for words in ("Absolute accelerations", "Floor spectra", "Largest arch stress", "Largest cantilever stress"):
         expect(words in full.text and words in bare.text, f"'{words}'")

@@ -17,7 +17,7 @@ import program_wedges
 from program_cohesive import SHORT, cohesive
 from program_lift import LIFTS
 from program_massless import MASSLESS, SUSTAINED
-from program_own_steps import OWN
+from program_subcycling import OWN
 from program_ranks import launcher, on_ranks
 from run_program import expect, refused, run_cases, runs, same_to_the_bit, settings, stopped, summary, write_scene
 
@@ -85,7 +85,7 @@ BASE, GAPS = [*program_base.ARCH, *program_base.BASE], program_gaps.ARCH
 CASES = {
     "plain": [(plain("KSM", "double"), KILLED, files_and_changes), (plain("FJA", "double"), KILLED, files_and_changes),
               (plain("FJA", "single"), KILLED, files_and_changes)],
-    "own_steps": [([*OWN, *every(20, f"Joints/Model={law}")], KILLED, None) for law in ("tied", "FJA")],
+    "subcycling": [([*OWN, *every(20, f"Joints/Model={law}")], KILLED, None) for law in ("tied", "FJA")],
     "massless": [([*MASSLESS, *every(20, "Joints/Model=FJA", *SUSTAINED)], KILLED, None)],
     "cohesive": [([*SHORT, *cohesive("1 MPa", "300"), *asked(20)], KILLED, None)],
     "base": [([*BASE, *asked(20, "Joints/Normal stiffness=1e11", "Joints/Adhesion=1 MPa", "Motion/Duration=1.5")], ASKED, elastic_base),

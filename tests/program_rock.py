@@ -11,7 +11,7 @@ import shutil
 from math import pi, sin
 from pathlib import Path
 
-from program_watch import ROCK
+from program_monitor import ROCK
 from run_program import expect, refused, run_cases, runs, same_to_the_bit, settings, summary, table, voussoir, write_scene
 
 

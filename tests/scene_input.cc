@@ -428,7 +428,8 @@ namespace
     Scene   scene;
     scene.add_parameters(prm);
     const UsualRanges &usual = prm.usual_ranges();
-    expect(usual.size() == 81, std::to_string(usual.size()) + " usual ranges");
+    for (const auto &[name, range] : usual)
+      expect(range.low < range.high, "the usual range of " + name);
     for (const char *name : {"Mesh/Arch210/Rock/Depth", "Concrete/Density", "Joints/Friction",
                              "Joints/Keys/Friction", "Loads/Silt/Density", "Limits/Slip"})
       expect(usual.count(name) == 1, std::string("the usual range of ") + name);
@@ -440,9 +441,10 @@ namespace
   void test_loads()
   {
     const LoadParameters loads;
-    expect(loads.combinations.at("extreme") == "weight, water, tail water, silt, temperature, uplift, "
-                                               "concentrated, crest line, force history, earthquake",
-           loads.combinations.at("extreme"));
+    std::string          all;
+    for (const LoadRow &load : load_table())
+      all += std::string(load.name) + ", ";
+    expect(loads.combinations.at("extreme") == all + "earthquake", loads.combinations.at("extreme"));
     Scene scene;
     scene.reservoir.density = 0.;
     for (const LoadRow &load : load_table())

@@ -101,7 +101,7 @@ def compare(results):
     import matplotlib.pyplot as plt
     computed, measured = velocity_ratios(Path(results, "history.csv")), measured_ratios()
     bands = ((3, 3.5), (3.5, 4), (4, 4.5), (4.5, 5), (5, 5.3), (5.3, 6), (6, 7), (3, 5.3))
-    print("| brick | " + " | ".join(f"{a:g} to {b:g} Hz" for a, b in bands) + " | rms of the logarithm, 3 to 4.8 Hz | to 5.3 Hz |")
+    print("| brick | " + " | ".join(f"{a:g} to {b:g} Hz" for a, b in bands) + " | rms of ln, 3 to 4.8 Hz | to 5.3 Hz |")
     print("|---|" + "---|" * (len(bands) + 2))
     figure, axes = plt.subplots(2, 3, figsize=(10, 5.5), sharex=True, sharey=True, layout="constrained")
     for panel, brick in zip(axes.flat, BRICKS):

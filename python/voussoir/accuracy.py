@@ -317,11 +317,11 @@ def draw(choices, ladder, wish, total, proposal, file):
         keys = [choice.key(k) for k in range(len(choice.levels))]
         errors = [100 * ladder.norm(ladder.measures(key) - choice.limit)[2] for key in keys]
         axes.plot([ladder.cost[key] for key in keys], errors, mark + "-", label=f"{choice.name} alone, "
-                  + (f"order {choice.order:.1f}" if choice.fitted else f"order {choice.order:.0f} taken"))
-    axes.plot(ladder.cost[FIRST], 100 * total[2], "k*", markersize=14, label=f"the scene as it is, {percent(total[2])}")
+                  + (f"order {choice.order:.1f}" if choice.fitted else f"order {choice.order:.0f} assumed"))
+    axes.plot(ladder.cost[FIRST], 100 * total[2], "k*", markersize=14, label=f"the input file, {percent(total[2])}")
     if "cost" in proposal:
         axes.plot(proposal["cost"], 100 * proposal["error"], "kD", markersize=9, label=f"proposed, {percent(proposal['error'])}")
-    axes.axhline(100 * wish, color="0.5", linewidth=1, linestyle="--", label=f"the wish, {percent(wish)}")
+    axes.axhline(100 * wish, color="0.5", linewidth=1, linestyle="--", label=f"the target, {percent(wish)}")
     axes.set(xscale="log", yscale="log", xlabel="cost: processor seconds of each thread per second of earthquake",
              ylabel="error of openings or zone tension, the larger [%]")
     axes.grid(True, which="both", linewidth=0.4, color="0.88")
@@ -382,7 +382,7 @@ def prepare(options, wish):
     if entries["Reservoir/Model"] == "acoustic" and (depth := water_depth(options.scene, options.set)) > 0:
         choices += water_choices(entries, depth, lambda size: water_mass_factor(options.scene, {**common, WATER_SIZE: size}))
     n_runs = 2 + sum(len(choice.levels) - 1 for choice in choices)
-    print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {begin:.4g} s on; {n_runs} runs; wish: {percent(wish)}")
+    print(f"{options.scene}: the strongest {part[-1, 0]:.4g} s, from {begin:.4g} s on; {n_runs} runs; target: {percent(wish)}")
     ladder = Ladder(Path(options.scene).resolve(), common, directory, n_runs, float(part[-1, 0]))
     ladder.lock = lock  # until the command ends
     return choices, ladder, entries
@@ -397,10 +397,10 @@ def about_choices(choices, ladder, wish):
             o, t, _ = ladder.norm(ladder.measures(name) - choice.limit)
             words = ", ".join(f"{entry.split('/')[-1]} = {value}" for entry, value in level.items())
             print(f"  {choice.name:12s} {words + (' (now)' if k == choice.current else ''):42s} {ladder.cost[name]:9.3f}   "
-                  f"{percent(o):>8s}  {percent(t):>8s}   {choice.order:.1f}{'' if choice.fitted else ' taken'}")
+                  f"{percent(o):>8s}  {percent(t):>8s}   {choice.order:.1f}{'' if choice.fitted else ' assumed'}")
     small = [c.name for c in choices if ladder.norm(ladder.measures(FIRST) - c.limit)[2] < wish / 10]
     if small:
-        print(f"\n  Finer than the wish needs: {', '.join(small)} (each less than a tenth of it).")
+        print(f"\n  Finer than the target needs: {', '.join(small)} (each less than a tenth of it).")
     return small
 
 
@@ -462,7 +462,7 @@ def main():
     small = about_choices(choices, ladder, wish)
     if all(choice.name.startswith(("time", "water")) for choice in choices):
         print("\n  The mesh cannot be refined from here (degree 2, already subdivided): its error is in none of these numbers.")
-    print(f"\nThe scene as it is: error {percent(total[0])} of the openings, {percent(total[1])} of the zone means of tension, "
+    print(f"\nThe input file as it is: error {percent(total[0])} of the openings, {percent(total[1])} of the tensile stress, "
           f"at {ladder.cost[FIRST]:.3g} s of processor time (of each thread) per second of earthquake.")
     bars = error_bars(choices, ladder)
     about_bars(bars)

@@ -295,7 +295,7 @@ def accuracy_sentence(run):
     openings, tension, target = accuracy_of(run)
     state = "within" if max(openings, tension) <= target else "above"
     return (f"<code>voussoir accuracy</code> of the scene estimates an error of mesh and time step of {number(openings, '%', 2)} % for the openings and "
-            f"{number(tension, '%', 2)} % for the zone means of tension, {state} its target of {number(target, '%', 2)} %. ")
+            f"{number(tension, '%', 2)} % for the tensile stress, {state} its target of {number(target, '%', 2)} %. ")
 
 
 def modes_of(run):

@@ -401,10 +401,9 @@ namespace Voussoir
     if (Ranks::size() > 1)
       std::snprintf(others, sizeof(others), " for the first rank, %.2f GiB for each other one",
                     need.of_others / gib);
-    std::snprintf(
-        text, sizeof(text),
-        "about %.2f GiB%s, and %.2f GiB more for each halved time step size that the joints require",
-        need.run / gib, others, need.halved_step / gib);
+    std::snprintf(text, sizeof(text),
+                  "about %.2f GiB%s, and %.2f GiB more for each divided time step that the joints require",
+                  need.run / gib, others, need.halved_step / gib);
     return text;
   }
 

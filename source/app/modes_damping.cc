@@ -68,7 +68,7 @@ namespace Voussoir
     const bool is_reached = share >= heavy_share;
     return text("proposal: Damping/Frequency 1 = %.3g, Frequency 2 = %.3g (", f1, f2) +
            (is_reached ? text("modes 1 to %zu: %.0f %% of the effective mass", n_modes, 100. * share)
-                       : text("5 times the first: the modes have only %.0f %% of the effective mass",
+                       : text("5 times the first: increase --count, the modes have only %.0f %% of the mass",
                               100. * share)) +
            text("); at least %.2f %% in between", 100. * damping.ratio * smallest_between(f1, f2));
   }

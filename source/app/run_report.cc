@@ -192,7 +192,7 @@ namespace Voussoir
       if (dam.facts.critical_step > .1 * run.motion.dt && !scene.is_explicit() && // see benchmarks/schemes.py
           scene.foundation.model == "rigid" && scene.impact_rule == "mean-force")
         log.line(
-            "          \"Dynamics/Scheme\" = explicit is probably two to five times cheaper at equal error");
+            "          \"Dynamics/Scheme\" = explicit is probably three to five times cheaper at equal error");
       if (run.n_steps > 0 && scene.is_explicit())
         log.line("Explicit  %u steps of %.4g ms in a time step", scene.n_explicit,
                  1e3 * run.motion.dt / scene.n_explicit);

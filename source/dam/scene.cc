@@ -52,9 +52,9 @@ namespace Voussoir
         Patterns::Map(Patterns::Anything(), Patterns::Anything()));
     prm.add_parameter(
         "Equations", equations_name,
-        "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
-        "slip angle of the joint force, as printed, for comparison. Default alart-curnier, because it always "
-        "converges.",
+        "Form of the joint equations. alart-curnier: slip angle of the trial force. paper: "
+        "slip angle of the joint force, as printed, for comparison. Default alart-curnier, because the other "
+        "form often does not converge.",
         Patterns::Selection(equations_names()));
     keys.add_parameters(prm);
     prm.leave_subsection();

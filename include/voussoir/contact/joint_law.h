@@ -35,7 +35,7 @@ namespace Voussoir
     cut    ///< the bond is lost at once: a saw cut, a gap that grout did not fill, or a brittle crack
   };
 
-  /** Data of a pair that a joint law requires besides force and gap. */
+  /** Data of a pair besides force and gap. A law has no velocity and no time step. */
   struct PairHistory
   {
     /** @param start gap at the start of the step [m] */
@@ -66,8 +66,8 @@ namespace Voussoir
    * One constant object serves all pairs of a joint. Values that change are history variables, n_memory() per
    * pair. The time integration stores the history variables, also for reduced time steps and checkpoints.
    *
-   * Order of the calls in a time step:
-   * 1. evaluate(), error() and solve() until all pairs converge;
+   * Order of the calls in a time step (4: trapezoidal scheme only):
+   * 1. solve(), in implicit steps also evaluate() and error(), until all pairs converge;
    * 2. utilisation() for each pair. If a value exceeds 1, apply_event() for the pairs with the largest
    *    values, and the step is solved again from 1;
    * 3. commit() once for each pair;
@@ -127,7 +127,7 @@ namespace Voussoir
     /** Returns true if slip is zero for open and closed pairs. */
     virtual bool is_tangentially_tied() const { return false; }
 
-    /** Returns the number of history variables of a pair. Their initial values are zero. */
+    /** Returns the number of history variables of a pair. They are zero at first and after grouting. */
     virtual unsigned int n_memory() const { return 0; }
 
     /** Returns true if the law requires forces that are means over the step (ImpactRule::mean_force). */

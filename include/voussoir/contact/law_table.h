@@ -12,7 +12,7 @@ namespace Voussoir
 {
   struct ModelChoices;
 
-  /** Makes the joint law with the given @p name: tied, FJA, FJB, KSM or cohesive. Throws InputError for an
+  /** Makes the joint law of the row @p name of the table. Throws InputError for an
    * unknown name, for equations that the law does not have, and for invalid parameters. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters);
 
@@ -35,10 +35,10 @@ namespace Voussoir
    * there is none, or if the law is not in the table. */
   std::string joint_law_warning(const std::string &name, const LawParameters &parameters);
 
-  /** Returns the laws that may require mean forces: "cohesive and KSM (unless ...)". */
+  /** Returns the laws that may require mean forces, for a message. */
   std::string joint_laws_of_mean_force();
 
-  /** Returns the names of the laws as a ParameterHandler selection: "tied|FJA|FJB|KSM|cohesive". */
+  /** Returns the names of the laws as a ParameterHandler selection, such as "tied|FJA". */
   std::string joint_law_names();
 
   /** Adds the other laws for all joints. A law is simpler if the present one reads all of its entries. */

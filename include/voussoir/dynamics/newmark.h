@@ -10,7 +10,7 @@
 namespace Voussoir
 {
   /** Time integration of a structure with joints by the trapezoidal rule: M a + C v + K u = load + G^T force,
-   * with Rayleigh damping C.
+   * with Rayleigh or uniform damping C.
    *
    * Each step has two stages: JointSystem computes the displacements and joint forces that satisfy the joint
    * laws, then Impact corrects the velocities of closed pairs. See doc/method.md. The support must outlive the

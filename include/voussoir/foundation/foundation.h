@@ -85,7 +85,7 @@ namespace Voussoir
     virtual double largest_step() const { return std::numeric_limits<double>::infinity(); }
 
     /** Returns the text after "Steps N of DT s" in the log, with the punctuation before it. Examples:
-     *  - "; the scheme is implicit: there is no critical time step" (the default),
+     *  - "; the scheme of the dam is implicit, without a critical time step" (default),
      *  - ", 1 rock step each; critical time step of the rock 0.00125 s". */
     virtual std::string about_steps() const;
 

@@ -11,8 +11,8 @@ namespace Voussoir
   /** Energies of all joints [J]. */
   struct JointEnergy
   {
-    double stored =
-        0.; ///< JointLaw::stored_energy(): flank contacts of shear keys, stiffness of the joints [J]
+    double stored = 0.;   ///< ElasticLaw::stored_energy(), and JointLaw::bond_energy() of laws with several
+                          ///< surfaces, such as shear keys [J]
     double fracture = 0.; ///< JointLaw::bond_energy(): stored and dissipated by bonds [J]
   };
 

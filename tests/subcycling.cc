@@ -12,7 +12,7 @@ namespace
 
   constexpr double near_critical = .98 * .003004; ///< step of the rock of the block's cells [s]
 
-  Case own_steps(const unsigned int m, const double dt)
+  Case subcycling(const unsigned int m, const double dt)
   {
     Case c;
     c.coupling = "mean traction";
@@ -132,7 +132,7 @@ namespace
   {
     for (const unsigned int m : {1, 2, 4, 7})
     {
-      Case c = own_steps(m, near_critical);
+      Case c = subcycling(m, near_critical);
       c.duration = 20000 / m * c.dt;
       Account       account;
       const History h =
@@ -148,7 +148,7 @@ namespace
    * decays. */
   void box_with_quality()
   {
-    Case c = own_steps(4, .8 * near_critical);
+    Case c = subcycling(4, .8 * near_critical);
     c.quality = 20.;
     c.duration = 3000 * c.dt;
     Account       account;
@@ -166,7 +166,7 @@ namespace
   {
     for (const unsigned int m : {2, 4, 7})
     {
-      Case c = own_steps(m, near_critical);
+      Case c = subcycling(m, near_critical);
       c.boundary = "mtf3";
       c.duration = 12000 / m * c.dt;
       const History h = partitioned(box(8), c);
@@ -184,7 +184,7 @@ namespace
   {
     for (const unsigned int m : {2, 5})
     {
-      Case c = own_steps(m, .01 / 7.);
+      Case c = subcycling(m, .01 / 7.);
       c.pulse_length = .4;
       c.duration = 280 / m * c.dt;
       Vector3 before{};
@@ -216,7 +216,7 @@ namespace
                                        {4, 5e-3, 1e-2},
                                        {7, 2.5e-2, 2.5e-2}})
     {
-      Case c = own_steps(m, .01 / 7.);
+      Case c = subcycling(m, .01 / 7.);
       c.pulse_length = .4;
       c.duration = 560 / m * c.dt;
       const History     one = implicit(box(7), c), own = partitioned(box(7), c);
@@ -229,7 +229,7 @@ namespace
   /** Two monoliths on one rock, contact and friction between them. */
   void friction(const std::string &name, const unsigned int m)
   {
-    Case c = own_steps(m, .00143);
+    Case c = subcycling(m, .00143);
     c.law = "FJA";
     c.duration = 280 / m * c.dt;
     Account account;
@@ -266,7 +266,7 @@ namespace
   }
 } // namespace
 
-/** Usage: own_steps compliance|energy|accuracy|joints */
+/** Usage: subcycling compliance|energy|accuracy|joints */
 int main(int argc, char **argv)
 {
   const std::string part = argc > 1 ? argv[1] : "";
@@ -278,6 +278,6 @@ int main(int argc, char **argv)
     return Columns::run_all({accuracy, base_velocity});
   if (part == "joints")
     return Columns::run_all({joints});
-  std::fprintf(stderr, "usage: own_steps compliance|energy|accuracy|joints\n");
+  std::fprintf(stderr, "usage: subcycling compliance|energy|accuracy|joints\n");
   return 2;
 }

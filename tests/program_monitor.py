@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program: what becomes unstable is refused, or seen and stopped; balances; warnings of joints.
 
-    program_watch.py VOUSSOIR CASE...     cases: see the functions with that name below
+    program_monitor.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
 import re
@@ -53,7 +53,7 @@ def rock_checks():
 
 
 def balance():
-    """One definition of the balance in log, summary and figure (test_stability_watch: what too large a one does)."""
+    """One definition of the balance in log, summary and figure (test_stability_monitor: what too large a one does)."""
     write_scene()
     runs("scene.prm", "--output", "sound", *ROCK, *settings("Joints/Model=FJA"))
     result, log = summary("sound"), Path("sound/log.txt").read_text()

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests of the program: rock at steps of its own ("Foundation/Substeps" above 1, coupled by mean tractions).
 
-    program_own_steps.py VOUSSOIR CASE...     cases: see the functions with that name below
+    program_subcycling.py VOUSSOIR CASE...     cases: see the functions with that name below
 """
 
 
