@@ -18,7 +18,7 @@ LAYERS = (("errors",), ("palette", "prm", "tables", "units", "vtu", "chromium"),
           ("drawing", "frames", "picture", "report_places", "scene_text", "study_file", "study_scene"),
           ("ensemble_drawing", "mode_shapes", "needs_verdicts", "report_scene", "report_tables", "study_figures", "study_results"),
           ("report_answers", "report_figures", "report_needs"), ("report_ensemble", "report_view3d"),
-          ("accuracy", "arcs", "figures", "film", "needs_command", "needs_output", "needs_runs", "new", "report", "study", "view"),
+          ("accuracy", "arcs", "completion", "figures", "film", "needs_command", "needs_output", "needs_runs", "new", "report", "study", "view"),
           ("__init__",))
 FLOOR = {name: floor for floor, names in enumerate(LAYERS) for name in names}
 

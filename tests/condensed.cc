@@ -71,21 +71,19 @@ namespace
       if (joined && (i < across * up || i >= (layers - 1) * across * up))
         body.interface.push_back(i);
     }
-    structure.dashpots.assign(3 * columns.size(), 0.);
-    structure.dashpots[1] = 1e6;
     return structure;
   }
 
-  constexpr double mass_factor = 4e4, stiffness_factor = 1.2, dashpot_factor = 200.;
+  constexpr double mass_factor = 4e4, stiffness_factor = 1.2;
 
-  /** (mass_factor M + stiffness_factor K + dashpot_factor D + springs) u */
+  /** (mass_factor M + stiffness_factor K + springs) u */
   Unknowns multiply(const Structure &structure, const Unknowns &springs, const Unknowns &u)
   {
     Unknowns Au(u.size());
     structure.multiply_stiffness(u, Au);
     for (std::size_t i = 0; i < u.size(); ++i)
     {
-      Au[i] = stiffness_factor * Au[i] + (dashpot_factor * structure.dashpots[i] + springs[i]) * u[i];
+      Au[i] = stiffness_factor * Au[i] + springs[i] * u[i];
       for (unsigned int c = 0; c < 3; ++c)
         Au[i] += mass_factor * structure.mass[i / 3][3 * (i % 3) + c] * u[i - i % 3 + c];
     }
@@ -103,8 +101,7 @@ namespace
     Unknowns                               springs(n), b(n), u(n), free(n);
     for (std::size_t i = 0; i < n; ++i)
       springs[i] = i % 7 == 0 ? 1e8 : 0., b[i] = 1e6 * number(random);
-    CondensedBody     condensed(structure, body, {mass_factor, stiffness_factor, dashpot_factor}, springs,
-                                single);
+    CondensedBody     condensed(structure, body, {mass_factor, stiffness_factor}, springs, single);
     const std::size_t m = condensed.n_interface();
     expect(m == 3 * body.interface.size(), name + ": size of the interface");
     if (m > 0)

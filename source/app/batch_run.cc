@@ -3,6 +3,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/lanes.h>
 #include <voussoir/output/assessment.h>
+#include <voussoir/output/stability_monitor.h>
 
 #include <algorithm>
 #include <cmath>

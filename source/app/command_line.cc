@@ -3,7 +3,6 @@
 
 #include <voussoir/app/command_line.h>
 #include <voussoir/app/command_options.h>
-#include <voussoir/app/completion.h>
 #include <voussoir/app/declared_entries.h>
 #include <voussoir/app/ensemble.h>
 #include <voussoir/app/memory_need.h>
@@ -277,8 +276,6 @@ namespace Voussoir
                                                                          : help_about(arguments.command));
     else if (arguments.command == "parameters")
       print_parameters(arguments.words);
-    else if (arguments.command == "completion")
-      print_completion(arguments.words, std::cout);
     else if (const Command &command = command_of(arguments.command); *command.script != '\0')
       become_script(command.script, words_of(arguments), command.modules);
     else if (arguments.command.empty() && arguments.words.empty())

@@ -112,7 +112,12 @@ namespace Voussoir
          "[prm|json|markdown] [SECTION]",
          "Prints all entries of a scene file or of a section, with defaults and meaning.",
          {}},
-        {"completion", "bash", "Prints the completion of commands, options and entries for bash.", {}}};
+        {"completion",
+         "bash",
+         "Prints the completion of commands, options and entries for bash.",
+         {},
+         "completion.py",
+         ""}};
 
     constexpr const char *spelling =
         "--output=DIR and -o DIR mean --output DIR; all options with a value accept \"=\".\n";
@@ -240,16 +245,6 @@ namespace Voussoir
       return result;
     }
   } // namespace
-
-  const std::vector<Command> &command_table()
-  {
-    return commands;
-  }
-
-  bool sets_entry(const CommandOption &option)
-  {
-    return option.meaning == std::string(overrides.meaning);
-  }
 
   Arguments read_arguments(const std::vector<std::string> &words)
   {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/app/scene_relations.h>
+#include <voussoir/app/scene_ranges.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/load_table.h>
 #include <voussoir/motion/motion_files.h>

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/app/scene_relations.h>
 #include <voussoir/app/scene_warnings.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/dam.h>
-#include <voussoir/foundation/foundation_names.h>
 
 #include <algorithm>
 #include <cstdlib>

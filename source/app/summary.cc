@@ -94,8 +94,7 @@ namespace Voussoir
 
   Assessment assessment_of(const RunState &run, const RunObservers &observers)
   {
-    return assess(run, observers.joints, observers.stresses,
-                  observers.blocks ? &observers.blocks->blocks : nullptr,
+    return assess(run, observers.joints, observers.stresses, observers.blocks ? &*observers.blocks : nullptr,
                   observers.wedges ? std::optional<double>(observers.wedges->least_safety()) : std::nullopt);
   }
 
@@ -295,7 +294,7 @@ namespace Voussoir
     if (observers.water)
       summary.add("water", observers.water->json());
     if (observers.blocks)
-      summary.add("blocks", observers.blocks->blocks.json());
+      summary.add("blocks", observers.blocks->json());
     if (observers.wedges)
       summary.add("wedges", observers.wedges->json());
     summary.add("warnings", log.warnings());

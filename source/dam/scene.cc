@@ -6,7 +6,6 @@
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/dynamics/integrator_table.h>
-#include <voussoir/foundation/foundation_names.h>
 
 #include <algorithm>
 #include <cmath>

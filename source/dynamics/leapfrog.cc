@@ -41,8 +41,8 @@ namespace Voussoir
 
     void check(const Structure &structure)
     {
-      ensure(Ranks::size() == 1 && !(structure.damping.stiffness > 0.) && structure.dashpots.empty(),
-             "The leapfrog rule has one process, no damping by the stiffness and no dashpots.");
+      ensure(Ranks::size() == 1 && !(structure.damping.stiffness > 0.),
+             "The leapfrog rule has one process and no damping by the stiffness.");
       for (const Body &body : structure.bodies)
         ensure(body.reacting.empty(), "The leapfrog rule has no reactions of water.");
     }

@@ -199,8 +199,6 @@ namespace Voussoir
           if (!elastic_force.empty())
             input -= elastic_force[k] * du[c];
           damping += structure.damping.stiffness / dt * (Ku[k] - now.Ku[k]) * du[c];
-          if (!structure.dashpots.empty())
-            damping += structure.dashpots[k] / dt * du[c] * du[c];
           now.v[k] = 2. / dt * du[c] - now.v[k];
           now.u[k] = u_new[k];
         }
@@ -256,8 +254,7 @@ namespace Voussoir
       {
         const std::size_t k = 3 * i + c;
         result[k] = now.load[k] - structure.damping.mass * momentum[c] - structure.damping.stiffness * Kv[k] -
-                    now.Ku[k] - structure.damping.more_force(now.relaxation, now.Ku, k) -
-                    (structure.dashpots.empty() ? 0. : structure.dashpots[k] * now.v[k]);
+                    now.Ku[k] - structure.damping.more_force(now.relaxation, now.Ku, k);
       }
     }
     return result;

@@ -6,7 +6,7 @@ namespace Voussoir
 {
   StepOperator trapezoidal_rule(const Structure &structure, const double dt, const double share)
   {
-    StepOperator A{4. / (dt * dt) + 2. / dt * structure.damping.mass, 1., 2. / dt, share, 1.};
+    StepOperator A{4. / (dt * dt) + 2. / dt * structure.damping.mass, 1., share, 1.};
     (structure.has_zones() ? A.damped : A.stiffness) += structure.damping.more_stiffness(dt);
     return A;
   }
@@ -67,8 +67,6 @@ namespace Voussoir
                                         (damped.empty() ? more : 0.) - 1.);
         for (std::size_t k = 0; k < damped.size(); ++k)
           rhs[k] += more * damped[k];
-        for (std::size_t k = 0; k < structure.dashpots.size(); ++k)
-          rhs[k] += 2. / dt * structure.dashpots[k] * now.u[k];
         structure.add_reaction(1., now.u, rhs);
         return system.solve(rhs, joints.offset, joints.start, joints.memory, joints.force, joints.gap,
                             joints.u_new, &joints.base);
@@ -141,8 +139,6 @@ namespace Voussoir
           {
             const std::size_t k = 3 * i + c;
             carried.resisted[k] = A.stiffness * (Ku_new[k] - now.Ku[k]);
-            if (!structure.dashpots.empty())
-              carried.resisted[k] += A.dashpot * structure.dashpots[k] * du[c];
             carried.resisted[k] += A.mass * Md[c];
           }
         }

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
-#include <voussoir/base/free_memory.h>
 #include <voussoir/base/internal_error.h>
 #include <voussoir/foundation/explicit_rock.h>
 #include <voussoir/foundation/foundation_check.h>
@@ -14,11 +13,22 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 namespace Voussoir
 {
   namespace
   {
+    /** Returns freed memory to the operating system, except for blocks between allocations that are in use. */
+    void release_free_memory()
+    {
+#ifdef __GLIBC__
+      malloc_trim(0);
+#endif
+    }
+
     /** Returns the CPU time of a time step at each node, relative to a node with nodal quadrature only.
      * @p near_base: nodes that RockPatch computes, too. */
     std::vector<double> work_of_nodes(const RockModel &model, const std::vector<unsigned int> &near_base)

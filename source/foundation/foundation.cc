@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/entries.h>
 #include <voussoir/foundation/foundation.h>
-#include <voussoir/foundation/foundation_names.h>
 #include <voussoir/rock/boundary_table.h>
 
 namespace Voussoir

@@ -77,8 +77,6 @@ namespace Voussoir
                   a += step.reaction * body.reaction[e][3 * i + j];
                 if (K.column[e] == row)
                   a += (step.mass + step.proximal) * structure.mass[node][3 * i + j];
-                if (K.column[e] == row && i == j && !structure.dashpots.empty())
-                  a += step.dashpot * structure.dashpots[3 * node + i];
                 if (K.column[e] == row && i == j && !springs.empty())
                   a += springs[3 * node + i];
                 index[k] = 3 * K.column[e] + j;

@@ -84,7 +84,7 @@ namespace Voussoir
 
   Assessment::Assessment(const LimitParameters &limits, const SolidModel &model,
                          const StressesOfRun *stresses, const JointRecorder *joints,
-                         const BlockRecorder *blocks, const std::optional<double> wedge_safety)
+                         const BlockObserver *blocks, const std::optional<double> wedge_safety)
       : limits(limits)
   {
     const std::string no_stress = "Output/Envelope interval is 0", no_joint = "no joint can move";
@@ -264,7 +264,7 @@ namespace Voussoir
     hold("waterstop_slip", "m", points.waterstop_slip.value, limits.waterstop_slip);
   }
 
-  void Assessment::add_blocks(const BlockRecorder *blocks)
+  void Assessment::add_blocks(const BlockObserver *blocks)
   {
     if (blocks == nullptr)
       leave("sliding_safety", limits.sliding_safety, "Output/Block forces is false");

@@ -165,4 +165,11 @@ namespace Voussoir
             "peak values of the motion (voussoir motion).";
     return text.str();
   }
+
+  void StabilityObserver::record()
+  {
+    const std::string instability = monitor.instability(*run.integrator, run.step, run.is_last());
+    if (!instability.empty())
+      throw ComputationError(instability);
+  }
 } // namespace Voussoir

@@ -185,7 +185,7 @@ namespace Voussoir
   }
 
   Assessment assess(const RunState &run, const JointObserver &joints, const StressObserver &stresses,
-                    const BlockRecorder *blocks, const std::optional<double> wedge_safety)
+                    const BlockObserver *blocks, const std::optional<double> wedge_safety)
   {
     const StressesOfRun of_run{stresses.envelope, stresses.tension,
                                run.n_steps > 0 ? run.scene().output.envelope_interval.samples : 1};

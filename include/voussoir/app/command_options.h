@@ -25,12 +25,6 @@ namespace Voussoir
     const char                *modules = "numpy, matplotlib"; ///< Python modules that the script requires
   };
 
-  /** Returns all commands. */
-  const std::vector<Command> &command_table();
-
-  /** Returns whether the value of @p option is an entry of an input file: --set, except for a study. */
-  bool sets_entry(const CommandOption &option);
-
   /** Words of a command line by meaning. */
   struct Arguments
   {

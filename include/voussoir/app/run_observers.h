@@ -3,6 +3,7 @@
 #define voussoir_run_observers_h
 
 #include <voussoir/output/frame_observer.h>
+#include <voussoir/output/stability_monitor.h>
 #include <voussoir/output/wedge_observer.h>
 
 #include <optional>

@@ -38,6 +38,10 @@ namespace Voussoir
 
   /** Returns a warning about a value outside of its range in @p usual. Empty: plausible, or no range. */
   std::string implausible(const UsedValue &value, const UsualRanges &usual);
+
+  /** Returns warnings about implausible combinations of entries (scene_relations.cc). @p entries: entries in the input
+   * file. */
+  std::vector<Warning> odd_relations(const Scene &scene, const std::vector<WrittenEntry> &entries);
 } // namespace Voussoir
 
 #endif

@@ -2,12 +2,22 @@
 #ifndef voussoir_load_table_h
 #define voussoir_load_table_h
 
-#include <voussoir/dam/idle_entries.h>
+#include <voussoir/base/names.h>
+#include <voussoir/dam/scene.h>
 #include <voussoir/dam/tractions.h>
 #include <voussoir/solid/solid_model.h>
 
 namespace Voussoir
 {
+  /** Entries without effect under a condition. */
+  struct IdleEntries
+  {
+    const char *reason;           ///< condition, for the message
+    bool (*holds)(const Scene &); ///< condition
+    EntryNames entries;           ///< entries without effect
+    EntryNames exceptions = {};   ///< those among @p entries with an effect
+  };
+
   /** Model on which static loads act. */
   struct LoadSite
   {

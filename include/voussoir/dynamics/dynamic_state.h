@@ -13,7 +13,7 @@ namespace Voussoir
     double kinetic = 0.;    ///< kinetic energy of the concrete
     double added_mass = 0.; ///< kinetic energy of the added mass of the water
     double strain = 0.;     ///< strain energy of the concrete, with that of the mechanisms of Damping
-    double damping = 0.;    ///< dissipation by damping and dashpots
+    double damping = 0.;    ///< dissipation by damping
     double friction = 0.;   ///< dissipation by friction on faces and flanks of the joints
     double impact = 0.;     ///< remaining work in the joints: loss by impacts
     double input = 0.;      ///< work of all loads and of the support

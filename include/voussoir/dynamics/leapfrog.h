@@ -44,8 +44,7 @@ namespace Voussoir
      * @param n_steps number of steps h in dt, below the critical step
      * @param neighbours take the steps h, too
      *
-     * There must be one process, and the structure must have no stiffness term of the damping, dashpots or reactions of
-     * water. */
+     * There must be one process, and the structure must have no stiffness term of the damping and no reactions of water. */
     Leapfrog(const Structure &structure, const JointLaws &laws, double dt, unsigned int n_steps,
              std::vector<StepNeighbour *> neighbours = {});
 

@@ -15,13 +15,13 @@ namespace Voussoir
     const Vector3  &base_velocity; ///< velocity of the base at the end, see Newmark::advance() [m/s]
   };
 
-  /** Returns the operator A of a step by the trapezoidal rule with damping and dashpots.
+  /** Returns the operator A of a step by the trapezoidal rule with damping.
    * @param structure damping: factors a_0 of the mass and a_1 of the stiffness, and mechanisms
    * @param dt length of the step [s]
    * @param share 2 if the joint forces are means over the step, 1 if they are forces at its end [-]
    *
-   * The factors are 4/dt^2 + 2/dt a_0 for M, 1 + Damping::more_stiffness() for K (1 + 2/dt a_1 without mechanisms; with
-   * Damping::zones its second part for K_c), and 2/dt for the dashpots. */
+   * The factors are 4/dt^2 + 2/dt a_0 for M, and 1 + Damping::more_stiffness() for K (1 + 2/dt a_1 without mechanisms;
+   * with Damping::zones its second part for K_c). */
   StepOperator trapezoidal_rule(const Structure &structure, double dt, double share);
 
   /** Equation of a step by the trapezoidal rule: the sum of the equations of motion at both ends, in which the

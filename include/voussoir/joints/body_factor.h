@@ -11,13 +11,12 @@ namespace Voussoir
 {
   class PackedFactor;
 
-  /** Linear system of a step: A u = load + share G^T f with A = mass M + stiffness K + damped K_c + dashpot D +
+  /** Linear system of a step: A u = load + share G^T f with A = mass M + stiffness K + damped K_c +
    * reaction E + springs, and the joint forces f. A static system has the mass 0. */
   struct StepOperator
   {
     double mass = 0.;      ///< factor of the mass matrix M [1/s^2]
     double stiffness = 1.; ///< factor of the stiffness matrix K [-]
-    double dashpot = 0.;   ///< factor of the dashpots D [1/s]
     double share = 1.;     ///< 1: f are forces at the end of the step; 2: means over the step [-]
 
     double reaction = 0.; ///< factor of the reaction E of the water, Body::reaction [-]
@@ -56,7 +55,7 @@ namespace Voussoir
     };
 
     /** Assembles A of one body.
-     * @param structure masses and dashpots of all bodies
+     * @param structure masses of all bodies
      * @param body stiffness and interface of the body; must outlive the object
      * @param step factors of the matrices
      * @param springs springs to the ground, three values per node of the structure [N/m]; empty: none

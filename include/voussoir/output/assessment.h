@@ -4,7 +4,7 @@
 
 #include <voussoir/base/log.h>
 #include <voussoir/dam/limits.h>
-#include <voussoir/output/block_recorder.h>
+#include <voussoir/output/block_observer.h>
 #include <voussoir/output/face_tension.h>
 #include <voussoir/output/recorders.h>
 
@@ -49,7 +49,7 @@ namespace Voussoir
      * @param blocks forces at the base; nullptr: not recorded
      * @param wedge_safety smallest sliding safety of the rock wedges [-]; empty: no wedges */
     Assessment(const LimitParameters &limits, const SolidModel &model, const StressesOfRun *stresses,
-               const JointRecorder *joints, const BlockRecorder *blocks, std::optional<double> wedge_safety);
+               const JointRecorder *joints, const BlockObserver *blocks, std::optional<double> wedge_safety);
 
     /** Adds the members "overstress", "waterstop", "residual", "keys", "limits" (value, limit and satisfied, by
      * name of the limit) and "limits_not_evaluated" (reason, by name of the limit) to @p summary. */
@@ -80,7 +80,7 @@ namespace Voussoir
     void hold_by_level(const std::string &name, const std::string &unit, const Overstress::Levels &worst,
                        const Overstress::Levels &with_base, double limit);
     void add_joints(const JointRecorder &joints);
-    void add_blocks(const BlockRecorder *blocks);
+    void add_blocks(const BlockObserver *blocks);
     void add_keys(const KeyForces &of_joints);
 
     const LimitParameters                            limits;

@@ -5,12 +5,9 @@
 #include <voussoir/base/log.h>
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/tractions.h>
-#include <voussoir/output/block_recorder.h>
+#include <voussoir/output/block_observer.h>
 #include <voussoir/output/face_tension.h>
 #include <voussoir/output/floor_accelerations.h>
-#include <voussoir/output/observer.h>
-#include <voussoir/output/run_state.h>
-#include <voussoir/output/stability_monitor.h>
 #include <voussoir/output/table_columns.h>
 
 #include <optional>
@@ -19,21 +16,6 @@ namespace Voussoir
 {
   /** Extremes of a run by their names in summary.json. */
   using NamedExtremes = std::vector<std::pair<std::string, Extreme>>;
-
-  /** Observer for instability: record() throws ComputationError if the run has become unstable. */
-  class StabilityObserver : public Observer
-  {
-  public:
-    /** Computes the bounds. @p run: state at the start of the time loop; must outlive the observer. */
-    explicit StabilityObserver(const RunState &run) : run(run), monitor(*run.dam, run.motion, *run.integrator)
-    {
-    }
-    void record() override;
-
-  private:
-    const RunState        &run;
-    const StabilityMonitor monitor;
-  };
 
   /** Displacements and accelerations of crest and probes (history.csv, floor_spectra.csv) and energies
    * (energy.csv). */
@@ -216,29 +198,7 @@ namespace Voussoir
   /** Returns the assessment of the results so far. @p blocks: forces at the base, or null. @p wedge_safety: see
    * Assessment. */
   Assessment assess(const RunState &run, const JointObserver &joints, const StressObserver &stresses,
-                    const BlockRecorder *blocks = nullptr, std::optional<double> wedge_safety = {});
-
-  /** Forces of the foundation on the bases of the monoliths (blocks.csv). */
-  class BlockObserver : public Observer
-  {
-  public:
-    /** @p run: state after the static state; must outlive the observer. */
-    explicit BlockObserver(const RunState &run);
-    void follow() override;
-    void record() override { blocks.record(run.integrator->state().time); }
-    void report(Log &log) const override;
-    void flush() override { file.append(blocks.history); }
-    void open(const std::string &directory) override { file.open(directory + "/blocks.csv", blocks.history); }
-    void write_tables(const std::string &) override { flush(); }
-    void save(boost::archive::binary_oarchive &archive) const override;
-    void load(boost::archive::binary_iarchive &archive) override;
-
-    BlockRecorder blocks; ///< the records
-
-  private:
-    const RunState &run;
-    TableFile       file;
-  };
+                    const BlockObserver *blocks = nullptr, std::optional<double> wedge_safety = {});
 
   /** Fields on the mesh and on the joints for ParaView (solution-NNNNN.vtu, solution.pvd). */
   class FieldObserver : public Observer

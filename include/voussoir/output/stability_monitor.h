@@ -5,7 +5,9 @@
 #include <voussoir/base/excess.h>
 #include <voussoir/dam/dam.h>
 #include <voussoir/motion/ground_motion.h>
+#include <voussoir/output/observer.h>
 #include <voussoir/output/recorders.h>
+#include <voussoir/output/run_state.h>
 
 namespace Voussoir
 {
@@ -67,6 +69,21 @@ namespace Voussoir
     double         velocity_dam, displacement_dam; ///< bounds [m/s], [m]
 
     std::vector<NeighbourMonitor *> of_neighbours; ///< monitors of the neighbours of the dam
+  };
+
+  /** Observer for instability: record() throws ComputationError if the run has become unstable. */
+  class StabilityObserver : public Observer
+  {
+  public:
+    /** Computes the bounds. @p run: state at the start of the time loop; must outlive the observer. */
+    explicit StabilityObserver(const RunState &run) : run(run), monitor(*run.dam, run.motion, *run.integrator)
+    {
+    }
+    void record() override;
+
+  private:
+    const RunState        &run;
+    const StabilityMonitor monitor;
   };
 } // namespace Voussoir
 

@@ -57,7 +57,6 @@ namespace Voussoir
     Shares               share;      ///< distribution of the bodies over the ranks; see collect_interfaces()
     std::vector<Matrix3> mass;       ///< lumped mass per node, with added mass [kg]
     std::vector<Matrix3> added_mass; ///< added mass of the water per node [kg]
-    Unknowns             dashpots;   ///< viscous dashpots to the ground per component [N s/m]; empty = none
     std::vector<Pair>    pairs;      ///< sorted by group
     unsigned int         n_joints = 0;
 
@@ -67,7 +66,7 @@ namespace Voussoir
 
     /** Clusters of pairs that share nodes, where joints cross; see clusters_of(). */
     std::vector<std::vector<unsigned int>> clusters;
-    Damping                                damping; ///< besides the dashpots
+    Damping                                damping;
     bool plane_strain = false; ///< true: displacements along y are zero, see decouple_y()
 
     unsigned int n_nodes() const { return static_cast<unsigned int>(mass.size()); }
