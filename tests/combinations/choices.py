@@ -82,6 +82,7 @@ def scales(laws, loads):
         **lists("Motion/Abutments", {"two": "right {.9}: other.txt; left {.9}: motion.txt"}),
         "sequence": {"none": {}, "two": {"Motion/File": None, "Motion/Sequence": "motion.txt; other.txt", "Motion/Rest": "0.05", "Motion/Duration": "0.05"}},
         **values("Damping/Ratio", "0.05", "0"),
+        **lists("Damping/Zones", {"heel": "heel: 0.08"}, **{"Concrete/Zones": "heel: 3e10 0.2 2300"}),  # the own mesh has this zone
         "output": {"tables": {}, "all": {"Output/Solution interval": "10", "Output/Frames": "5", "Output/Probes": "mid: 0 0 {.5}"},
                    "no stresses": {"Output/Envelope interval": "0"}},
         "limits": {"none": {}, "all": {"Limits/Tensile strength": "3e6", "Limits/Opening": "0.01", "Limits/Slip": "0.01", "Limits/Compression": "1e7",

@@ -66,7 +66,7 @@ def call(words, ranks=1, threads=1, limit=300, served=True):
 
 
 def first_sentence(message):
-    return re.split(r"(?<=[^ .][.:]) (?=[A-Z\"])", message)[0]
+    return re.split(r"(?<=[^ .][.]) (?=[A-Z\"])", message)[0]
 
 
 def warnings_of(facts):
@@ -98,6 +98,7 @@ class Net:
                 call(["mesh", str(self.directory / f"{mesh}.prm"), "--output", str(part), "--format", "2.2"])
                 own = read_mesh(part)
                 own["nodes"] = [[x, y, z + DAMS["file"][0]] for x, y, z in own["nodes"]]
+                own["head"] = [re.sub('"(monolith 1( lift 1)?)"', r'"\1 heel"', line) for line in own["head"]]
                 write_mesh(self.directory / f"{mesh}.msh", own)
                 part.unlink()
             entries["Mesh/File"] = f"{mesh}.msh"
@@ -153,7 +154,7 @@ class Net:
             if any(not self.refusal([*levels, (name, other)]) for other in list(factors[name])[1:4]):
                 levels.append((name, scene[name] if self.refusal([*levels, (name, scene[name])]) else default[name]))
                 break
-        self.refused[frozenset(levels)] = self.validated({**default, **dict(levels)})
+        self.refused[frozenset(levels)] = message
         print("        refused:", *(f"{n}={level}" for n, level in sorted(levels)), "|", first_sentence(message), flush=True)
         return dict(levels)
 
@@ -206,11 +207,9 @@ class Net:
             levels = frozenset(tuple(part.split(" = ", 1)) for part in row.replace("...", "GRID").split("`, `"))
             if all(level in self.choices.factors.get(name, ()) for name, level in levels):
                 self.refused[levels] = message
-                if number % share == first:
-                    self.refused[levels] = self.validated({**self.choices.default, **dict(levels)})
-                    if not isinstance(self.refused[levels], str):
-                        accepted.append(row)
-                        del self.refused[levels]
+                if number % share == first and not isinstance(self.validated({**self.choices.default, **dict(levels)}), str):
+                    accepted.append(f"`{row}`: accepted")
+                    del self.refused[levels]
         return accepted
 
     def is_forbidden(self, scene):
