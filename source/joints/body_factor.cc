@@ -109,6 +109,8 @@ namespace Voussoir
       std::vector<int> permutation = order(A, is_interface, dissect, common);
       common.nmethods = 1;
       common.method[0].ordering = CHOLMOD_GIVEN;
+      common.postorder =
+          false; // of CHOLMOD, which may move parts of the interface that the rest does not connect
       cholmod_factor *L = cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
       check_memory(common);
       return L;
@@ -226,21 +228,6 @@ namespace Voussoir
           " is not positive definite. Either its nodes on the surface \"base\" do not hold it: at least three "
           "that are not on a line are needed. Or its elements are distorted; `voussoir mesh` prints their "
           "quality.");
-    if (order == Order::interface_last)
-      check_interface_is_last();
-  }
-
-  /** The elimination tree is a chain at the interface, so a postorder does not change it. */
-  void BodyFactor::check_interface_is_last() const
-  {
-    const std::vector<unsigned int> unknown = permutation();
-    for (unsigned int i = n() - n_interface(); i < n(); ++i)
-      if (!std::binary_search(body.interface.begin(), body.interface.end(), unknown[i] / 3))
-        throw ComputationError(
-            "The mesh of " + body.name() +
-            " is not in one piece, or only one element wide on rock with mass. If its parts have no common node, "
-            "merge their coincident nodes in the mesh (gmsh: Coherence), or give the parts different numbers. "
-            "Otherwise use at least two elements along each monolith.");
   }
 
   double BodyFactor::n_entries() const
