@@ -109,8 +109,6 @@ namespace Voussoir
       std::vector<int> permutation = order(A, is_interface, dissect, common);
       common.nmethods = 1;
       common.method[0].ordering = CHOLMOD_GIVEN;
-      common.postorder =
-          false; // of CHOLMOD, which may move parts of the interface that the rest does not connect
       cholmod_factor *L = cholmod_analyze_p(A, permutation.data(), nullptr, 0, &common);
       check_memory(common);
       return L;
@@ -122,6 +120,7 @@ namespace Voussoir
     {
       constexpr std::size_t large = 20000; // METIS is tried above this size
       common.supernodal = CHOLMOD_SUPERNODAL;
+      common.postorder = is_interface.empty(); // it may move parts of an interface that the rest does not connect
       if (is_interface.empty())
       {
         common.nmethods = n_unknowns < large ? 1 : 0; // 0: chosen by CHOLMOD
