@@ -120,7 +120,7 @@ namespace Voussoir
     {
       constexpr std::size_t large = 20000; // METIS is tried above this size
       common.supernodal = CHOLMOD_SUPERNODAL;
-      common.postorder = is_interface.empty(); // it may move parts of an interface that the rest does not connect
+      common.postorder = is_interface.empty(); // it could move parts of an interface
       if (is_interface.empty())
       {
         common.nmethods = n_unknowns < large ? 1 : 0; // 0: chosen by CHOLMOD
