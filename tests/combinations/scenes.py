@@ -238,7 +238,7 @@ class Net:
         """Changes factors other than those of the seed until the program accepts the scene; its facts, or None if no scene has the seed."""
         default = self.choices.default
         for _ in range(60):
-            levels, named = next((dict(levels) for levels in self.refused if levels <= scene.items()), None), []
+            levels, named = next((dict(sorted(levels)) for levels in self.refused if levels <= scene.items()), None), []
             changed = [name for name in scene if name not in seed and scene[name] != default[name]]
             if not levels:
                 facts = self.validated(scene)
