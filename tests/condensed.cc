@@ -152,6 +152,12 @@ namespace
         check_body("large body with joints, dissected", box(60, 10, 12, true), false);
       check_body("body without joints" + kernels, box(4, 5, 6, false), true);
       check_body("one node" + kernels, box(1, 1, 1, false), true);
+      Structure divided = box(3, 4, 12, true); // its rest touches a part of the interface only
+      for (unsigned int i = 2; i < 4; ++i)
+        for (unsigned int k = 0; k < 12; ++k)
+          divided.bodies[0].interface.push_back(12 * (4 + i) + k);
+      std::sort(divided.bodies[0].interface.begin(), divided.bodies[0].interface.end());
+      check_body("interface that the rest does not connect" + kernels, divided, true);
       check_body("thin body, single precision" + kernels, box(3, 5, 12, true), true, true);
       check_body("thick body, single precision" + kernels, box(24, 4, 5, true), false, true);
     }

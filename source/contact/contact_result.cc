@@ -33,8 +33,8 @@ namespace Voussoir
   {
     add_work(other);
     converged = converged && other.converged;
-    residual = std::max(residual, other.residual);
-    residual_over_load = std::max(residual_over_load, other.residual_over_load);
+    residual = std::max(other.converged ? residual : 0., other.residual);
+    residual_over_load = std::max(other.converged ? residual_over_load : 0., other.residual_over_load);
     path = std::max(path, other.path);
     worst_pair = other.worst_pair;
     return *this;

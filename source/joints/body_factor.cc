@@ -118,6 +118,7 @@ namespace Voussoir
     {
       constexpr std::size_t large = 20000; // METIS is tried above this size
       common.supernodal = CHOLMOD_SUPERNODAL;
+      common.postorder = is_interface.empty(); // it could move parts of an interface
       if (is_interface.empty())
       {
         common.nmethods = n_unknowns < large ? 1 : 0; // 0: chosen by CHOLMOD
@@ -224,21 +225,6 @@ namespace Voussoir
           " is not positive definite. Either its nodes on the surface \"base\" do not hold it: at least three "
           "that are not on a line are needed. Or its elements are distorted; `voussoir mesh` prints their "
           "quality.");
-    if (order == Order::interface_last)
-      check_interface_is_last();
-  }
-
-  /** The elimination tree is a chain at the interface, so a postorder does not change it. */
-  void BodyFactor::check_interface_is_last() const
-  {
-    const std::vector<unsigned int> unknown = permutation();
-    for (unsigned int i = n() - n_interface(); i < n(); ++i)
-      if (!std::binary_search(body.interface.begin(), body.interface.end(), unknown[i] / 3))
-        throw ComputationError(
-            "The mesh of " + body.name() +
-            " is not in one piece, or only one element wide on rock with mass. If its parts have no common node, "
-            "merge their coincident nodes in the mesh (gmsh: Coherence), or give the parts different numbers. "
-            "Otherwise use at least two elements along each monolith.");
   }
 
   double BodyFactor::n_entries() const

@@ -7,15 +7,17 @@
 Factors and their levels are the selections and switches of `voussoir parameters json`, the laws of the joints and the loads; only lengths,
 levels and lists are given here. A greedy array of strength 2 covers each pair of levels of two factors by a scene in which both have an
 effect. If the program refuses a scene, the responsible pair is found by experiments, and the scene is changed there. Prints the number of
-pairs, the checks, and each failure with its command. Exit status: 1 if a relation fails or a pair is neither covered nor refused.
+pairs, the checks, and each failure with its command. Exit status: 1 if a relation fails or a pair is neither covered nor refused,
+or the page of the manual is another.
 
 --tenth         the first tenth of the array
---list-refused  writes the refused pairs as a page of the manual
+--list-refused  writes the refused pairs as a page of the manual (refused_pairs.md is that of seed 1; the tenth relies on it)
 --draw          draws and validates the scenes only
---only K        the scene K of the array only
+--only K        the scene K of the last array in this directory only, with all relations
 """
 
 import argparse
+import ast
 import os
 import re
 import shutil
@@ -61,8 +63,8 @@ def always_converges(scene):
 
 
 def checked(case, relation):
-    """Number of the scene, relation, verdict."""
-    verdict = "holds"
+    """Number of the scene, relation, verdict, seconds."""
+    verdict, begin = "holds", time.time()
     try:
         relation(case)
     except Omitted as error:
@@ -72,17 +74,18 @@ def checked(case, relation):
     except Exception as error:  # pylint: disable=broad-except
         if "did not converge" in str(error) and not always_converges(case.scene):
             print(f"    no solution of scene {case.number}, {relation.__name__}: {error}", flush=True)
-            return case.number, relation.__name__, "does not apply"
+            return case.number, relation.__name__, "does not apply", time.time() - begin
         verdict = "failed"
         print(f"    FAILED scene {case.number}, {relation.__name__}: {'' if isinstance(error, Failed) else type(error).__name__ + ': '}{error}\n"
               f"        {case.net.choices.name(case.scene)}\n        cd {case.net.directory}; voussoir scene-{case.number}.prm", flush=True)
-    return case.number, relation.__name__, verdict
+    return case.number, relation.__name__, verdict, time.time() - begin
 
 
 def all_checked(case, relations):
     begin = time.time()
     rows = [checked(case, relation) for relation in relations]
-    print(f"    scene {case.number}: {len(rows)} checks, {time.time() - begin:.0f} s", flush=True)
+    print(f"    scene {case.number}: {len(rows)} checks, {time.time() - begin:.0f} s:",
+          ", ".join(f"{row[1]} {row[3]:.0f}" for row in rows if row[3] >= 10), flush=True)
     return rows
 
 
@@ -99,6 +102,11 @@ def page_of(net):
                       "These choices are refused together only.", "", *head, *rows(3), *rows(1)]) + "\n"
 
 
+def drawn_before(file, number):
+    """The scene with this number, as drawn by the last run; a scene may depend on whether those before it have a solution."""
+    return [row for row in map(ast.literal_eval, file.read_text().splitlines()) if row[0] == number][-1:]
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     parser.add_argument("voussoir")
@@ -113,33 +121,41 @@ def main():
     options = parser.parse_args()
     run_program.VOUSSOIR = str(Path(options.voussoir).resolve())
     directory = options.output.resolve() / f"seed-{options.seed[:12]}"
-    shutil.rmtree(directory, ignore_errors=True)
-    directory.mkdir(parents=True)
+    if options.only is None:
+        shutil.rmtree(directory, ignore_errors=True)
+    directory.mkdir(parents=True, exist_ok=True)
     written_files(directory)
-    net, begin = Net(directory, options.seed), time.time()
+    net, begin, drawn = Net(directory, options.seed), time.time(), directory / "scenes.txt"
     print(f"{len(net.choices.factors)} factors, {len(net.levels)} levels, {len(net.pairs)} pairs, seed {options.seed}", flush=True)
-    accepted = net.read_page(PAGE, 10 if options.tenth else 1)
+    accepted = net.read_page(PAGE, 10) if options.tenth else []
     met, checks, rows = {relation: set() for relation in RELATIONS}, [], []
     with ThreadPoolExecutor(options.jobs) as pool:
-        for number, (scene, idle) in enumerate(net.draw(7 if options.tenth else options.scenes), 1):
+        for number, (scene, idle) in drawn_before(drawn, options.only) if options.only else enumerate(net.draw(7 if options.tenth else options.scenes), 1):
             if options.list_refused:
                 options.list_refused.write_text(page_of(net))
-            if options.draw or options.only not in (None, number):
+            with drawn.open("a") as file:
+                print((number, (scene, idle)), file=file)
+            if options.draw:
                 continue
             case = Case(net, number, scene)
             rows.append(checked(case, first))
             if case.first:
-                relations = (*ALWAYS, *chosen(number, scene, idle, met, 4 if options.tenth else 3))
+                relations = (*ALWAYS, *chosen(number, scene, idle, met, len(RELATIONS) if options.only else 4 if options.tenth else 3))
                 checks.append(pool.submit(all_checked, case, relations))
             elif rows[-1][2] != "failed":
                 net.unsolved()
         rows += [row for check in checks for row in check.result()]
-    print("\n| relation | holds | does not apply | failed |\n|---|---|---|---|")
+    print("\n| relation | holds | does not apply | failed | time [s] |\n|---|---|---|---|---|")
     for name in dict.fromkeys(row[1] for row in rows):
-        print("|", name, "|", " | ".join(str(sum(row[1:3] == (name, verdict) for row in rows)) for verdict in ("holds", "does not apply", "failed")), "|")
+        of_relation = [row for row in rows if row[1] == name]
+        print("|", name, "|", " | ".join(str(sum(row[2] == verdict for row in of_relation)) for verdict in ("holds", "does not apply", "failed")), "|",
+              f"{sum(row[3] for row in of_relation):.0f} |")
     pairs, failures = net.counts(), sum(row[2] == "failed" for row in rows)
-    for row in accepted:
-        print(f"accepted, but refused in {PAGE.name}: {row}")
+    if not options.tenth and options.only is None and options.seed == "1":
+        listed, found = (set(re.findall(r"^\| (`.*?`) \|", text, re.M)) for text in (PAGE.read_text(), page_of(net)))
+        accepted = [f"{row}: in {PAGE.name} only" for row in listed - found] + [f"{row}: not in {PAGE.name}" for row in found - listed]
+    for row in sorted(accepted):
+        print(f"refused pair {row}. Write the page with --list-refused.")
     for pair in sorted(map(sorted, net.open_pairs())) if not options.tenth else ():
         print(f"open: {pair}")
     print(f"\n{len(net.scenes)} scenes, {pairs}, {len(rows)} checks, {failures} failures, {time.time() - begin:.0f} s, "

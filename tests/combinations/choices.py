@@ -17,6 +17,7 @@ BASE = {"Mesh/GRID/Joints": "2", "Mesh/GRID/Elements along": "6", "Mesh/GRID/Ele
 DAMS = {"Arch210": (0., 210.), "Arcs": (1000., 120.), "file": (500., 210.)}  # bottom and height [m]
 # Entries that a level requires.
 NEEDS = {("Motion/Source", "file"): {"Motion/File": "motion.txt", "Motion/Unit": "g"},
+         ("Motion/Source", "artificial"): {"Motion/Duration": "0.2"},
          ("Motion/Match", "true"): {"Motion/Target spectrum": "target.txt", "Motion/Duration": "1"},
          ("Motion/Match", "scale"): {"Motion/Target spectrum": "target.txt"},
          ("Reservoir/Model", "acoustic"): {"Reservoir/Element size": "{.15m}", "Output/Pressure depths": "5, 20"},
@@ -26,7 +27,7 @@ NEEDS = {("Motion/Source", "file"): {"Motion/File": "motion.txt", "Motion/Unit":
          ("Foundation/Model", "massless"): {"Mesh/GRID/Rock/Element size": "{.5m}", **{f"Mesh/GRID/Rock/{side}": "{.5m}" for side in (
              "Upstream", "Downstream", "Sides", "Depth")}},
          ("Foundation/Boundary", "mtf4"): {"Mesh/GRID/Rock/Boundary layers": "9"},
-         ("Foundation/Model", "rock"): {"Mesh/GRID/Rock/Element size": "{.3m}"}}
+         ("Foundation/Model", "rock"): {"Mesh/GRID/Rock/Element size": "{.3m}", "Motion/Duration": "0.35"}}  # waves arrive after 0.25 s
 LAW_NEEDS = {"KSM": {"Joints/Keys/Height": "0.15"}, "cohesive": {"Joints/Strength": "1e6", "Joints/Fracture energy": "200"}}
 DEFAULTS = {"Motion/Source": "file"}  # others than those of the program
 # Entries that are no factors: the section Mesh has its own factors below; an entry of older versions; figures need matplotlib; a
@@ -82,6 +83,7 @@ def scales(laws, loads):
         **lists("Motion/Abutments", {"two": "right {.9}: other.txt; left {.9}: motion.txt"}),
         "sequence": {"none": {}, "two": {"Motion/File": None, "Motion/Sequence": "motion.txt; other.txt", "Motion/Rest": "0.05", "Motion/Duration": "0.05"}},
         **values("Damping/Ratio", "0.05", "0"),
+        **lists("Damping/Zones", {"heel": "heel: 0.08"}, **{"Concrete/Zones": "heel: 3e10 0.2 2300"}),  # the own mesh has this zone
         "output": {"tables": {}, "all": {"Output/Solution interval": "10", "Output/Frames": "5", "Output/Probes": "mid: 0 0 {.5}"},
                    "no stresses": {"Output/Envelope interval": "0"}},
         "limits": {"none": {}, "all": {"Limits/Tensile strength": "3e6", "Limits/Opening": "0.01", "Limits/Slip": "0.01", "Limits/Compression": "1e7",
@@ -149,14 +151,15 @@ class Choices:
         for name in ("Joints/Model", "base joint", "lift joints"):
             result.update(LAW_NEEDS.get(scene[name], {}))
         for name, level in scene.items():
-            if (name, level) in NEEDS:
-                result.update(NEEDS[name, level])
+            needed = NEEDS.get((name, level), {})
+            longest = max(needed.get("Motion/Duration", "0"), result["Motion/Duration"], key=float)
+            result.update({**needed, "Motion/Duration": longest})
         for name, levels in self.factors.items():
             for entry, value in levels[scene[name]].items():
                 if entry in COMMON and entry in result:
                     value = f"{result[entry]}, {value}"
-                if entry == "Motion/Duration" and "Motion/Target spectrum" in result:
-                    continue  # matching needs a longer record
+                if entry == "Motion/Duration" and result[entry] != BASE[entry]:
+                    continue  # other choices need a longer record
                 if entry in result or value != self.program.get(entry, {}).get("default_value"):
                     result[entry] = value
         grid = "Arcs" if scene["mesh"] == "arcs" else "Arch210"

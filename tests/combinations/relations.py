@@ -489,7 +489,8 @@ RELATIONS = {
         "Reservoir/Model"] != "acoustic",  # a node of the water belongs to one monolith
     zero_gaps: lambda s: has_joints(s) and s["Joints/Initial gaps"] == "none",
     equal_modulus: lambda s: s["sustained moduli"] == "none",
-    equal_abutments: lambda s: s["Foundation/Model"] == "massless" and s["Motion/Source"] == "file" and s["Motion/Match"] != "scale" and s["Motion/Abutments"] == s["sequence"] == "none",
+    equal_abutments: lambda s: s["Foundation/Model"] == "massless" and s["Motion/Source"] == "file" and s["Motion/Match"] != "scale" and
+    s["Motion/Abutments"] == s["sequence"] == "none",
     dry_loads: lambda s: s["tail water"] == "none" or s["silt"] == "none",
     # The integrals here have no edges and no water in joints.
     base_force: lambda s: s["Loads/Crest line"] == "none" and s["Loads/Uplift/Joints"] == "false" and (

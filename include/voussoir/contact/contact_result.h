@@ -32,8 +32,8 @@ namespace Voussoir
     /** Adds the numbers of iterations and factorisations of another solution. */
     void add_work(const ContactResult &other);
 
-    /** Combines two solutions: sums of the numbers, the larger residual and the later stage, and the worst
-     * pair of @p other. The result is converged if both solutions are. */
+    /** Combines two solutions: sums of the numbers, the larger residual (or that of @p other if it failed) and
+     * the later stage, and the worst pair of @p other. The result is converged if both solutions are. */
     ContactResult &operator+=(const ContactResult &other);
   };
 } // namespace Voussoir

@@ -97,7 +97,6 @@ namespace Voussoir
 
   private:
     struct Cholmod;
-    void                check_interface_is_last() const;
     std::vector<double> trailing_block() const;
     std::vector<double> in_natural_order(const std::vector<double> &S) const;
 
