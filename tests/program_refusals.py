@@ -218,7 +218,6 @@ def plane_strain():
     meshes.write("across.msh", *across)
     refuse([*run, *PLANE, *settings("Reservoir/Density=1000")], (
         ("Mesh/File=held.msh", "Foundation/Model=massless", "Reservoir/Density=0", ("artificial boundary", "planes of symmetry", "(-2.5, -5, -7.5)")),
-        ("Mesh/File=koyna.msh", "Foundation/Model=massless", "Reservoir/Water level=95", "Reservoir/Model=acoustic", ("Reservoir/Model", "rigid base")),
         ("Mesh/File=koyna.msh", "Foundation/Model=rock", "Reservoir/Density=0", "Foundation/Incidence=SH 20 0", ("Foundation/Incidence", "P and SV waves")),
         ("Mesh/File=across.msh", "Reservoir/Water level=35", ("(5, 5, 10) m", "without joints across y"))))
 

@@ -74,11 +74,6 @@ namespace Voussoir
     /** Throws InputError if the model cannot be in plane strain. */
     void check_plane_strain(const Scene &scene, const HexMesh &mesh, const HexMesh &opened)
     {
-      if (scene.reservoir.is_meshed() && scene.reservoir.model == "acoustic" &&
-          scene.foundation.model != "rigid")
-        throw InputError(
-            "\"Mesh/Plane strain\" is true, and \"Reservoir/Model\" is acoustic: this requires a "
-            "rigid base. Set \"Foundation/Model\" to rigid, or \"Reservoir/Model\" to Westergaard.");
       check_plane_section(opened, scene.mesh.name());
       check_plane_section(mesh, scene.mesh.name());
     }

@@ -111,9 +111,9 @@ namespace Voussoir
     model = make_rock_part(mesh, rock, find, parameters.n_substeps());
     for (BoundaryLine &line : model.lines)
       line.distance *= parameters.plane_strain ? 2. : 1.; // waves in a plane spread as r^(-1/2)
-    static_state =
-        std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
-                                          !dam.on_footings.empty(), parameters.boundary == "fixed");
+    static_state = std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
+                                                     !dam.on_footings.empty(), parameters.boundary == "fixed",
+                                                     parameters.plane_strain);
     arrives = times_to(model, lowest_base_place(model, at_base, centre),
                        region_parameters(parameters, centre, 0.).incidence);
     mesh = HexMesh(); // no longer needed

@@ -104,9 +104,19 @@ namespace Voussoir
   }
 
   RockStaticState::RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes,
-                                   const double ratio, const bool has_footings, const bool is_held)
-      : model(model), base_nodes(base_nodes), ratio(ratio), has_footings(has_footings), is_held(is_held)
+                                   const double ratio, const bool has_footings, const bool is_held,
+                                   const bool is_slice)
+      : model(model), base_nodes(base_nodes), ratio(ratio), has_footings(has_footings), is_held(is_held),
+        is_slice(is_slice)
   {
+    const auto is_across = [&](const unsigned int i, const unsigned int k)
+    {
+      const Vector3 d = model.points[base_nodes[k].rock] - model.points[base_nodes[i].rock];
+      return is_slice && std::hypot(d[0], d[2]) <= 1e-6 * std::abs(d[1]);
+    };
+    for (unsigned int i = 0, k = 0; i < base_nodes.size(); across.push_back(k), k = 0, ++i)
+      while (k < i && !is_across(i, k))
+        ++k;
   }
 
   Unknowns RockStaticState::springs(const Structure &structure) const
@@ -160,7 +170,7 @@ namespace Voussoir
     u_base.resize(3 * base_nodes.size());
     for (std::size_t i = 0; i < base_nodes.size(); ++i)
       for (unsigned int c = 0; c < 3; ++c)
-        u_base[3 * i + c] = u[3 * base_nodes[i].rock + c] / ratio;
+        u_base[3 * i + c] = c == 1 && is_slice ? 0. : u[3 * base_nodes[across[i]].rock + c] / ratio;
   }
 
   Unknowns RockStaticState::with_springs(const Unknowns &external, const Unknowns &springs,

@@ -18,12 +18,19 @@ namespace Voussoir
       return dam.points[node];
     }
 
-    double size_of(const WetQuad &quad)
+    /** Returns the number of parts in both directions of a face. In a slice it is independent of the thickness, and
+     * even: the two sides have equal areas, as no part lies in the middle. */
+    unsigned int n_parts(const WetQuad &quad, const WaterMesh &mesh, const double h)
     {
       double size = 0.;
       for (unsigned int k = 0; k < 4; ++k)
-        size = std::max(size, norm(quad.corners[(k + 1) % 4] - quad.corners[k]));
-      return size;
+      {
+        Vector3 edge = quad.corners[(k + 1) % 4] - quad.corners[k];
+        edge[1] *= mesh.is_slice ? 0. : 1.;
+        size = std::max(size, norm(edge));
+      }
+      const unsigned int n = std::max(1., std::ceil(4. * size / h));
+      return mesh.is_slice ? n + n % 2 : n;
     }
 
     /** Finds the water node of a part of the dam's face. Nodes of the water line have no pressure, but their area
@@ -92,7 +99,7 @@ namespace Voussoir
     for (std::size_t f = 0; f < quads.size(); ++f)
     {
       const auto        &x = wet[f].corners;
-      const unsigned int n = std::max(1., std::ceil(4. * size_of(wet[f]) / h));
+      const unsigned int n = n_parts(wet[f], mesh, h);
       for (unsigned int a = 0; a < n; ++a)
         for (unsigned int b = 0; b < n; ++b)
         {

@@ -26,9 +26,11 @@ namespace Voussoir
      * @param base_nodes base nodes of the dam
      * @param ratio factor of the stiffness matrix: sustained over Young's modulus [-]
      * @param has_footings the dam has footings, see with_footings()
-     * @param is_held true: the outer boundary is fixed, not on springs_of_far_rock() */
+     * @param is_held true: the outer boundary is fixed, not on springs_of_far_rock()
+     * @param is_slice true: no displacement along y, and none that differs across the slice, as their round-off would
+     * grow in the iteration */
     RockStaticState(const RockModel &model, const std::vector<BaseNode> &base_nodes, double ratio,
-                    bool has_footings, bool is_held);
+                    bool has_footings, bool is_held, bool is_slice);
 
     /** Returns the springs at the base nodes, see BaseSupport::static_springs(). They are ten times as stiff
      * as the stiffest base node of the monoliths in x. */
@@ -57,7 +59,8 @@ namespace Voussoir
     const RockModel             &model;
     const std::vector<BaseNode> &base_nodes;
     const double                 ratio;
-    const bool                   has_footings, is_held;
+    const bool                   has_footings, is_held, is_slice;
+    std::vector<unsigned int> across; ///< per base node: the first one with its x and z in a slice, or itself
     std::unique_ptr<RockStatics> rock;            ///< solver of the rock, from the first solve() on
     unsigned int                 n_solutions = 0; ///< number of solutions of the rock so far
   };
