@@ -51,6 +51,11 @@ namespace Voussoir
         "of Statics/Stages fills it. Reported openings include it: they count from closed faces.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything()));
     prm.add_parameter(
+        "Key clearances", clearances,
+        "Keys/Clearance of single joints, as \"3: 2 mm, lift: 1 mm\" [m]: number, kind or name of the "
+        "joints as in Overrides.",
+        Patterns::Map(Patterns::Anything(), Patterns::Anything()));
+    prm.add_parameter(
         "Equations", equations_name,
         "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
         "slip angle of the joint force, as printed, for comparison. Default alart-curnier, because it always "
@@ -58,15 +63,6 @@ namespace Voussoir
         Patterns::Selection(equations_names()));
     keys.add_parameters(prm);
     prm.leave_subsection();
-  }
-
-  LawParameters JointParameters::law(const double young) const
-  {
-    LawParameters result = *this;
-    result.equations = equations_from_name(equations_name);
-    if (keys.seat_compliance < 0.)
-      result.keys.seat_compliance = 20. * keys.height / young;
-    return result;
   }
 
   namespace
@@ -81,16 +77,27 @@ namespace Voussoir
       return other;
     }
 
-    /** Returns an initial gap [m]. */
-    double gap_from(const std::string &value)
+    /** Returns a length of the @p entry [m]. */
+    double length_from(const std::string &value, const std::string &entry)
     {
-      const double gap = number_in_unit(value, "m", "Entry \"Joints/Initial gaps\"");
-      if (!(gap >= 0. && std::isfinite(gap)))
-        throw InputError("Entry \"Joints/Initial gaps\" has the gap \"" + value +
+      const double length = number_in_unit(value, "m", "Entry \"" + entry + "\"");
+      if (!(length >= 0. && std::isfinite(length)))
+        throw InputError("Entry \"" + entry + "\" has the value \"" + value +
                          "\", which must be a length of at least 0, such as \"2 mm\".");
-      return gap;
+      return length;
     }
   } // namespace
+
+  LawParameters JointParameters::law(const double young, const Joint *joint) const
+  {
+    LawParameters result = *this;
+    result.equations = equations_from_name(equations_name);
+    if (keys.seat_compliance < 0.)
+      result.keys.seat_compliance = 20. * keys.height / young;
+    if (const std::string own = joint ? value_of(clearances, *joint, "") : ""; !own.empty())
+      result.keys.clearance = length_from(own, "Joints/Key clearances");
+    return result;
+  }
 
   const std::string &JointParameters::model_of(const Joint &joint) const
   {
@@ -99,7 +106,7 @@ namespace Voussoir
 
   double JointParameters::gap_of(const Joint &joint) const
   {
-    return gap_from(value_of(gaps, joint, "0"));
+    return length_from(value_of(gaps, joint, "0"), "Joints/Initial gaps");
   }
 
   bool JointParameters::any_reads(const std::string &entry) const
@@ -135,7 +142,9 @@ namespace Voussoir
   void JointParameters::check() const
   {
     for (const auto &joint : gaps)
-      gap_from(joint.second);
+      length_from(joint.second, "Joints/Initial gaps");
+    for (const auto &joint : clearances)
+      length_from(joint.second, "Joints/Key clearances");
     // KSM treats a flank as closed within 1e-9 of the key height. A step starts with the error of the
     // previous solution, about 1e-12 m. Smaller keys would start beyond their flanks, where the problem of
     // the pair takes 200 times as long, or does not converge.
