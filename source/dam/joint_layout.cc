@@ -182,7 +182,7 @@ namespace Voussoir
     for (const auto &joint : scene.joints.gaps)
       named(joint.first, "Entry \"Joints/Initial gaps\" names ");
     for (const auto &joint : scene.joints.clearances)
-      named(joint.first, "Entry \"Joints/Key clearances\" names ");
+      named(joint.first, "Entry \"Joints/Keys/Clearances\" names ");
   }
 
   std::vector<std::size_t> JointLayout::named(const std::string &key, const std::string &what) const

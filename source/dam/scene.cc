@@ -51,17 +51,19 @@ namespace Voussoir
         "of Statics/Stages fills it. Reported openings include it: they count from closed faces.",
         Patterns::Map(Patterns::Anything(), Patterns::Anything()));
     prm.add_parameter(
-        "Key clearances", clearances,
-        "Keys/Clearance of single joints, as \"3: 2 mm, lift: 1 mm\" [m]: number, kind or name of the "
-        "joints as in Overrides.",
-        Patterns::Map(Patterns::Anything(), Patterns::Anything()));
-    prm.add_parameter(
         "Equations", equations_name,
         "Form of the joint equations. alart-curnier: slip angle of the trial force, always converges. paper: "
         "slip angle of the joint force, as printed, for comparison. Default alart-curnier, because it always "
         "converges.",
         Patterns::Selection(equations_names()));
     keys.add_parameters(prm);
+    prm.enter_subsection("Keys");
+    prm.add_parameter(
+        "Clearances", clearances,
+        "Clearance in single joints, as \"3: 2 mm, lift: 1 mm\" [m]: number, kind or name of the joints as "
+        "in Overrides.",
+        Patterns::Map(Patterns::Anything(), Patterns::Anything()));
+    prm.leave_subsection();
     prm.leave_subsection();
   }
 
@@ -95,7 +97,7 @@ namespace Voussoir
     if (keys.seat_compliance < 0.)
       result.keys.seat_compliance = 20. * keys.height / young;
     if (const std::string own = joint ? value_of(clearances, *joint, "") : ""; !own.empty())
-      result.keys.clearance = length_from(own, "Joints/Key clearances");
+      result.keys.clearance = length_from(own, "Joints/Keys/Clearances");
     return result;
   }
 
@@ -144,7 +146,7 @@ namespace Voussoir
     for (const auto &joint : gaps)
       length_from(joint.second, "Joints/Initial gaps");
     for (const auto &joint : clearances)
-      length_from(joint.second, "Joints/Key clearances");
+      length_from(joint.second, "Joints/Keys/Clearances");
     // KSM treats a flank as closed within 1e-9 of the key height. A step starts with the error of the
     // previous solution, about 1e-12 m. Smaller keys would start beyond their flanks, where the problem of
     // the pair takes 200 times as long, or does not converge.

@@ -76,7 +76,7 @@ namespace Voussoir
     std::string                        equations_name = "alart-curnier"; ///< form of the joint equations
     std::map<std::string, std::string> overrides;  ///< model by number, name or kind of a joint
     std::map<std::string, std::string> gaps;       ///< "Initial gaps" by number, name or kind, with unit
-    std::map<std::string, std::string> clearances; ///< "Key clearances", likewise
+    std::map<std::string, std::string> clearances; ///< "Keys/Clearances", likewise
     void                               add_parameters(Entries &prm);
     void                               check() const;
     void                               add_choices(ModelChoices &choices) const;
