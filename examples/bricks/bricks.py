@@ -44,8 +44,8 @@ def write_mesh(file):
         volume = 1000 * kind + count[kind]
         names[volume] = f"monolith {kind} lift {count[kind]} " + ("fuel" if kind == 1 else "interstitial")
         for part in parts[kind]:
-            sides = [[node(i * PITCH + x, y, j * PITCH + z) for x, z in part] for y in (DEPTH, 0)]
-            cells.append((volume, sides[0] + sides[1]))
+            sides = [[node(i * PITCH + x, y, j * PITCH + z) for x, z in part] for y in (0, DEPTH)]
+            cells.append((volume, sides[1] + sides[0]))
             for k in range(4):
                 a, b = part[k], part[(k + 1) % 4]
                 if any(place in (0, 10) and a[d] == b[d] == (half if place else -half) for d, place in ((0, i), (1, j))):
