@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the mesh of examples/section: a slice of a monolith of Koyna Dam (103 m high) for plane strain. Gmsh MSH 2.2.
+"""Writes the mesh of examples/koyna and examples/snap_back: a slice of a monolith of Koyna Dam (103 m high) for plane strain. Gmsh MSH 2.2.
 
-    meshes/koyna.py [--output meshes/koyna.msh] [--cells 8 20] [--along 1] [--thickness 1] [--rock 0 0] [--lift]
+    meshes/koyna.py [--output meshes/koyna.msh] [--cells 8 20] [--along 1] [--thickness 1] [--rock 0 0] [--no-lift]
 
 x points downstream, from the vertical upstream face; y to the left bank; z up, from the base.
 """
@@ -96,12 +96,12 @@ def main():
     parser.add_argument("--along", default=1, type=int, help="number of elements over the thickness")
     parser.add_argument("--thickness", default=1., type=float, help="[m]")
     parser.add_argument("--rock", default=(0, 0), nargs=2, type=int, help="numbers of rock elements beside and below the dam; 0: none")
-    parser.add_argument("--lift", action="store_true", help="a lift joint where the slope of the downstream face changes")
+    parser.add_argument("--no-lift", action="store_true", help="without the lift joint where the slope of the downstream face changes")
     options = parser.parse_args()
     lower = round(.6 * options.cells[1])
     write(options.output, *options.cells, options.along, options.thickness,
-          (lambda i, k: 1 + (k >= lower)) if options.lift else lambda i, k: 1, options.rock,
-          {1: "monolith 1 lift 1", 2: "monolith 1 lift 2"} if options.lift else None)
+          (lambda i, k: 1) if options.no_lift else lambda i, k: 1 + (k >= lower), options.rock,
+          None if options.no_lift else {1: "monolith 1 lift 1", 2: "monolith 1 lift 2"})
 
 
 if __name__ == "__main__":

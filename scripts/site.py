@@ -28,7 +28,7 @@ NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.
     "Reference": ("input_file", "generated/entries", "generated/commands", "output", "generated/columns", "mesh", "loads", "python",
                   "base_joints", "generated/refused_pairs", "glossary", "changes"),
     "Examples": ("examples/README", *(f"examples/{name}/README" for name in ("first_run", "own_dam", "keys", "base_joint", "rock", "water", "ensemble",
-                                                                             "section", "snap_back", "bricks"))),
+                                                                             "koyna", "snap_back", "bricks"))),
     "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
     "Evidence": ("verification", "performance", "paper", "failures"),
     "Develop": ("CONTRIBUTING", "tutorials/4_own_law", "release"),

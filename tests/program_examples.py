@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Each directory of examples/ but bricks (13 minutes): its command runs without a warning, and its page states the numbers of the run.
+"""Each directory of examples/ but bricks (12 minutes): its command runs without a warning, and its page states the numbers of the run.
 
     program_examples.py VOUSSOIR CASE...     cases: the names of the directories
 """

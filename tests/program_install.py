@@ -56,7 +56,7 @@ def install():
     does(program, "scene.prm", "--set", "Output/Figures=true", "--output", "out", environment=environment)
     expect(len(list(Path("out/figures").glob("*.png"))) >= 3, "the installed program drew no figures")
     expect(summary("out")["steps"] > 0, "no steps")
-    does(program, str(prefix / "share/voussoir/examples/section/scene.prm"), "--validate", environment=environment)
+    does(program, str(prefix / "share/voussoir/examples/koyna/scene.prm"), "--validate", environment=environment)
     completion = (prefix / "share/bash-completion/completions/voussoir").read_text()
     expect(completion == does(program, "completion", "bash"), "the installed completion is not that of the program")
 

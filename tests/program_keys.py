@@ -8,7 +8,7 @@
 import json
 from pathlib import Path
 
-from run_program import contact_program, run_cases, expect, refused, runs, same, succeeds, summary, table, voussoir, write_scene
+from run_program import contact_program, run_cases, expect, refused, runs, same, same_to_the_bit, succeeds, summary, table, voussoir, write_scene
 
 # Factors in double precision: tests of round-off
 SHORT = [x for e in ("Motion/Duration=1", "Output/Envelope interval=0", "Joints/Model=KSM", "Dynamics/Factors=double") for x in ("--set", e)]
@@ -75,6 +75,10 @@ def rigid():
     print("    largest slips [m]:", *opening)
     expect(abs(opening[1] / opening[0] - 1.) < 1e-2, "rigid and nearly rigid seats slip alike")
     expect(opening[2] > opening[0], "soft seats give")
+    for name, clearances in (("each", "1: 2 mm, 2: 2 mm"), ("one", "1: 2 mm")):
+        runs("scene.prm", "--output", name, *SHORT, *keys(0, "Clearance=0.05", "Friction=0", "Seat compliance=0", f"Clearances={clearances}"))
+    same_to_the_bit("rigid", "each")
+    expect(summary("one")["extremes"]["max_slip"]["value"] > opening[0], "the other joint has more play")
 
 
     refused(["scene.prm", "--output", "x", *SHORT, *keys(0, "Seat compliance=1e-15"), "--validate"],

@@ -84,6 +84,8 @@ def gaps():
         ("Joints/Initial gaps=1: wide", ("Initial gaps", "wide")),
         ("Joints/Initial gaps=1: 2 s", ("Initial gaps", "unit of time")),
         ("Joints/Initial gaps=4: 1 mm", ("Initial gaps", "joint 4", "2 joints")),
+        ("Joints/Model=KSM", "Joints/Keys/Clearances=1: -1 mm", ("Keys/Clearances", "-1 mm")),
+        ("Joints/Model=KSM", "Joints/Keys/Clearances=4: 1 mm", ("Keys/Clearances", "joint 4", "2 joints")),
         ("Joints/Initial gaps=1: 1 mm", "Joints/Overrides=1: tied", ("gap of joint 1", "tied"))))
     refuse(["scene.prm", "--validate"], (("Statics/Stages=cut 1 by 0", ("cut 1 by 0", "cut J by W")),))
 
@@ -206,8 +208,8 @@ def zones():
 
 
 def plane_strain():
-    """examples/section has no warning; dams and models that cannot be in plane strain are refused."""
-    shown = runs(str(HERE.parent / "examples" / "section" / "scene.prm"), "--validate")
+    """examples/koyna has no warning; dams and models that cannot be in plane strain are refused."""
+    shown = runs(str(HERE.parent / "examples" / "koyna" / "scene.prm"), "--validate")
     expect("plane strain" in shown and "warning" not in shown, shown)
     write_scene()
     run = ["scene.prm", "--validate"]

@@ -7,40 +7,49 @@
 
 import csv
 import sys
-from math import cos, log, pi, sqrt
+from math import cos, log, pi, sin, sqrt
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
-FUEL, SMALL, DEPTH = .214, .11025, .907  # [m]: half widths, thickness
+FUEL, SMALL, DEPTH = .214, .11025, .907  # [m]: half distances of opposite faces, thickness
+HALF, CORNER, HOLE = .0619, .028, .1316  # [m]: half widths of the faces between the bricks, and between fuel bricks; radius of the hole
 PITCH = FUEL + SMALL  # [m]: distance of the centres without the gaps of 2.2 mm, which scene.prm has
 DWELL, RATE, FIRST, DURATION, SAMPLE = 2., .1, 3., 42., .002  # constant frequency [s], sweep [Hz/s], [Hz], [s], [s]
 # Place in the grid of 11 x 11 bricks, whose outer ones are the frame; the first number is along the motion.
 BRICKS = {"FB2(2)(2)": (5, 5), "IB2(3)(2)": (6, 5), "FB2(2)(3)": (5, 7), "FB2(1)(2)": (3, 5), "FB1(3)(4)": (6, 8), "IB2(1)(0)": (2, 1)}
 
 
+def quarters(*cells):
+    """Cells in the plane (x, z), each turned by 0, 90, 180 and 270 degrees."""
+    turn = lambda p, q: p if q == 0 else turn((-p[1], p[0]), q - 1)
+    return [[turn(p, q) for p in cell] for q in range(4) for cell in cells]
+
+
 def write_mesh(file):
-    """A fuel brick is a cross of five cells, whose arms are as wide as the interstitial bricks between them: one cell each."""
+    """A fuel brick is a ring of twelve cells with faces to four interstitial bricks and four fuel bricks, an interstitial brick an octagon of four cells."""
     numbers, cells, faces, names, count = {}, [], [], {}, {1: 0, 2: 0}
+    inner, outer = (HOLE * cos(pi / 8), HOLE * sin(pi / 8)), (PITCH / 2 + CORNER, PITCH / 2 - CORNER)
+    swap = lambda p: (p[1], p[0])
+    parts = {1: quarters(((inner[0], -inner[1]), (FUEL, -HALF), (FUEL, HALF), inner), (inner, (FUEL, HALF), outer, swap(inner)),
+                         (swap(inner), outer, swap(outer), (HALF, FUEL))),
+             2: quarters(((0, 0), (SMALL, -HALF), (SMALL, HALF), (HALF, SMALL)))}
 
     def node(x, y, z):
         return numbers.setdefault((round(x, 6), y, round(z, 6)), len(numbers) + 1)
 
     on_edge = lambda q: not {0, 10} & set(q)
     for i, j in sorted(((i, j) for i in range(11) for j in range(11)), key=on_edge):  # frame first
-        kind = 1 if (i + j) % 2 == 0 else 2
+        kind, half = (1, FUEL) if (i + j) % 2 == 0 else (2, SMALL)
         count[kind] += 1
         volume = 1000 * kind + count[kind]
         names[volume] = f"monolith {kind} lift {count[kind]} " + ("fuel" if kind == 1 else "interstitial")
-        x, z, b = i * PITCH, j * PITCH, SMALL
-        parts = [(-b, b, -b, b)] + ([(b, FUEL, -b, b), (-FUEL, -b, -b, b), (-b, b, b, FUEL), (-b, b, -FUEL, -b)] if kind == 1 else [])
-        half = FUEL if kind == 1 else b
-        for x0, x1, z0, z1 in parts:
-            c = [node(x + p, y, z + r) for r in (z0, z1) for p, y in ((x0, 0), (x1, 0), (x1, DEPTH), (x0, DEPTH))]
-            cells.append((volume, c))
-            for outer, corners in ((i == 0 and x0 == -half, (0, 3, 7, 4)), (i == 10 and x1 == half, (1, 2, 6, 5)),
-                                   (j == 0 and z0 == -half, (0, 1, 2, 3)), (j == 10 and z1 == half, (4, 5, 6, 7))):
-                if outer:
-                    faces.append([c[k] for k in corners])
+        for part in parts[kind]:
+            sides = [[node(i * PITCH + x, y, j * PITCH + z) for x, z in part] for y in (0, DEPTH)]
+            cells.append((volume, sides[1] + sides[0]))
+            for k in range(4):
+                a, b = part[k], part[(k + 1) % 4]
+                if any(place in (0, 10) and a[d] == b[d] == (half if place else -half) for d, place in ((0, i), (1, j))):
+                    faces.append([sides[s][(k + m) % 4] for s, m in ((0, 0), (0, 1), (1, 1), (1, 0))])
     with open(file, "w") as out:
         print("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames", 1 + len(names), '2 1 "base"', sep="\n", file=out)
         print(*(f'3 {v} "{name}"' for v, name in names.items()), "$EndPhysicalNames\n$Nodes", len(numbers), sep="\n", file=out)
@@ -75,7 +84,8 @@ def velocity_ratios(history):
         window = range(begin, begin + per_window)
         largest = max(abs(table[k]) for k in window)
         for brick, (i, j) in BRICKS.items():
-            own = max(abs(column[f"b{i}_{j}_velocity_x"][k] + table[k]) for k in window)
+            probes = [column[name] for name in column if name.startswith(f"b{i}_{j}")]  # a fuel brick has two, on both sides of its centre
+            own = max(abs(sum(probe[k] for probe in probes) / len(probes) + table[k]) for k in window)
             found[brick].append((FIRST + RATE * (time[begin] + .5 - DWELL), own / largest))
     return found
 

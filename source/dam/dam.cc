@@ -71,13 +71,6 @@ namespace Voussoir
                            ", are flat (FJA) at the nodes where they cross other joints.");
     }
 
-    /** Throws InputError if the model cannot be in plane strain. */
-    void check_plane_strain(const Scene &scene, const HexMesh &mesh, const HexMesh &opened)
-    {
-      check_plane_section(opened, scene.mesh.name());
-      check_plane_section(mesh, scene.mesh.name());
-    }
-
   } // namespace
 
   Dam::Dam(const Scene &scene, const bool tie_all) : scene(scene), layout(scene, tie_all)
@@ -98,7 +91,8 @@ namespace Voussoir
       founded.coupling = "common step";
     if (scene.mesh.plane_strain)
     {
-      check_plane_strain(scene, mesh, opened);
+      check_plane_section(opened, source);
+      check_plane_section(mesh, source);
       founded.plane_strain = true;
       founded.free_field = "columns"; // the sides of a slice cut no valley
     }

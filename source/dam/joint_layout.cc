@@ -171,7 +171,7 @@ namespace Voussoir
       tied = tied && !is_open;
       has_open_bases = has_open_bases || (is_open && joint.is_base());
       has_open_lifts = has_open_lifts || (is_open && joint.is_lift());
-      laws.of_joint.push_back(make_joint_law(models.back(), scene.joints.law(scene.concrete.young)));
+      laws.of_joint.push_back(make_joint_law(models.back(), scene.joints.law(scene.concrete.young, &joint)));
       if (gaps.back() > 0. && !is_open)
         throw InputError("Entry \"Joints/Initial gaps\" has a gap of " + joint.name() +
                          ", but this joint is tied. Set another model (\"Joints/Model\" or "
@@ -181,6 +181,8 @@ namespace Voussoir
       named(joint.first, "Entry \"Joints/Overrides\" names ");
     for (const auto &joint : scene.joints.gaps)
       named(joint.first, "Entry \"Joints/Initial gaps\" names ");
+    for (const auto &joint : scene.joints.clearances)
+      named(joint.first, "Entry \"Joints/Keys/Clearances\" names ");
   }
 
   std::vector<std::size_t> JointLayout::named(const std::string &key, const std::string &what) const

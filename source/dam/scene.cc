@@ -56,16 +56,14 @@ namespace Voussoir
         "form often does not converge.",
         Patterns::Selection(equations_names()));
     keys.add_parameters(prm);
+    prm.enter_subsection("Keys");
+    prm.add_parameter(
+        "Clearances", clearances,
+        "Clearance in single joints, as \"3: 2 mm, lift: 1 mm\" [m]: number, kind or name of the joints as "
+        "in Overrides.",
+        Patterns::Map(Patterns::Anything(), Patterns::Anything()));
     prm.leave_subsection();
-  }
-
-  LawParameters JointParameters::law(const double young) const
-  {
-    LawParameters result = *this;
-    result.equations = equations_from_name(equations_name);
-    if (keys.seat_compliance < 0.)
-      result.keys.seat_compliance = 20. * keys.height / young;
-    return result;
+    prm.leave_subsection();
   }
 
   namespace
@@ -80,16 +78,27 @@ namespace Voussoir
       return other;
     }
 
-    /** Returns an initial gap [m]. */
-    double gap_from(const std::string &value)
+    /** Returns a length of the @p entry [m]. */
+    double length_from(const std::string &value, const std::string &entry)
     {
-      const double gap = number_in_unit(value, "m", "Entry \"Joints/Initial gaps\"");
-      if (!(gap >= 0. && std::isfinite(gap)))
-        throw InputError("Entry \"Joints/Initial gaps\" has the gap \"" + value +
+      const double length = number_in_unit(value, "m", "Entry \"" + entry + "\"");
+      if (!(length >= 0. && std::isfinite(length)))
+        throw InputError("Entry \"" + entry + "\" has the value \"" + value +
                          "\", which must be a length of at least 0, such as \"2 mm\".");
-      return gap;
+      return length;
     }
   } // namespace
+
+  LawParameters JointParameters::law(const double young, const Joint *joint) const
+  {
+    LawParameters result = *this;
+    result.equations = equations_from_name(equations_name);
+    if (keys.seat_compliance < 0.)
+      result.keys.seat_compliance = 20. * keys.height / young;
+    if (const std::string own = joint ? value_of(clearances, *joint, "") : ""; !own.empty())
+      result.keys.clearance = length_from(own, "Joints/Keys/Clearances");
+    return result;
+  }
 
   const std::string &JointParameters::model_of(const Joint &joint) const
   {
@@ -98,7 +107,7 @@ namespace Voussoir
 
   double JointParameters::gap_of(const Joint &joint) const
   {
-    return gap_from(value_of(gaps, joint, "0"));
+    return length_from(value_of(gaps, joint, "0"), "Joints/Initial gaps");
   }
 
   bool JointParameters::any_reads(const std::string &entry) const
@@ -134,7 +143,9 @@ namespace Voussoir
   void JointParameters::check() const
   {
     for (const auto &joint : gaps)
-      gap_from(joint.second);
+      length_from(joint.second, "Joints/Initial gaps");
+    for (const auto &joint : clearances)
+      length_from(joint.second, "Joints/Keys/Clearances");
     // KSM treats a flank as closed within 1e-9 of the key height. A step starts with the error of the
     // previous solution, about 1e-12 m. Smaller keys would start beyond their flanks, where the problem of
     // the pair takes 200 times as long, or does not converge.

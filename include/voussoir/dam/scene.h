@@ -74,14 +74,16 @@ namespace Voussoir
 
     std::string                        model = "FJA";                    ///< joint law
     std::string                        equations_name = "alart-curnier"; ///< form of the joint equations
-    std::map<std::string, std::string> overrides; ///< model by number, name or kind of a joint
-    std::map<std::string, std::string> gaps;      ///< "Initial gaps" by number, name or kind, with unit
+    std::map<std::string, std::string> overrides;  ///< model by number, name or kind of a joint
+    std::map<std::string, std::string> gaps;       ///< "Initial gaps" by number, name or kind, with unit
+    std::map<std::string, std::string> clearances; ///< "Keys/Clearances", likewise
     void                               add_parameters(Entries &prm);
     void                               check() const;
     void                               add_choices(ModelChoices &choices) const;
 
-    /** Returns the parameters of the joint laws. @p young: Young's modulus of the concrete [Pa]. */
-    LawParameters law(double young) const;
+    /** Returns the parameters of the law of a joint, or without a joint those of all.
+     * @p young: Young's modulus of the concrete [Pa]. */
+    LawParameters law(double young, const Joint *joint = nullptr) const;
 
     /** Returns true if the law of any joint uses the @p entry, such as "Joints/Friction". */
     bool any_reads(const std::string &entry) const;
