@@ -7,6 +7,7 @@
 #include <voussoir/base/nearest_name.h>
 #include <voussoir/base/units.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <boost/property_tree/json_parser.hpp>
 #include <boost/property_tree/ptree.hpp>
 
@@ -19,10 +20,7 @@ namespace Voussoir
 
   std::string joined(const std::vector<std::string> &path)
   {
-    std::string result;
-    for (const std::string &part : path)
-      result += (result.empty() ? "" : "/") + part;
-    return result;
+    return boost::algorithm::join(path, "/");
   }
 
   std::string DeclaredEntry::name() const

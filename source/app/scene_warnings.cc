@@ -179,11 +179,10 @@ namespace Voussoir
 
     std::string without_effect(const std::vector<const WrittenEntry *> &entries, const std::string &reason)
     {
-      std::string text;
-      for (const WrittenEntry *entry : entries)
-        text += (text.empty() ? "" : ", ") + entry->declared.name() + " (" + entry->place + ")";
-      return text + (entries.size() == 1 ? " has" : " have") + " no effect: " + reason + ". Remove the " +
-             (entries.size() == 1 ? "entry" : "entries") + ", or change this condition.";
+      const auto text = [](const WrittenEntry *entry)
+      { return entry->declared.name() + " (" + entry->place + ")"; };
+      return listed(entries, text) + (entries.size() == 1 ? " has" : " have") + " no effect: " + reason +
+             ". Remove the " + (entries.size() == 1 ? "entry" : "entries") + ", or change this condition.";
     }
 
     /** Returns the reason why the entry has no effect, or an empty string if it has an effect. */

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/base/units.h>
 
 #include <algorithm>
@@ -118,11 +119,7 @@ namespace Voussoir
 
     std::string units_of(const std::string &dimension)
     {
-      std::string list;
-      for (const Unit &unit : units)
-        if (dimension == unit.dimension)
-          list += (list.empty() ? "" : ", ") + std::string(unit.name);
-      return list;
+      return listed(units, [&](const Unit &unit) { return dimension == unit.dimension ? unit.name : ""; });
     }
   } // namespace
 

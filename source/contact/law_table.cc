@@ -124,11 +124,7 @@ namespace Voussoir
 
   std::string joint_laws_with(const std::string &entry)
   {
-    std::string names;
-    for (const LawRow &law : laws)
-      if (includes(law.entries, entry))
-        names += (names.empty() ? "" : ", ") + std::string(law.name);
-    return names;
+    return listed(laws, [&](const LawRow &law) { return includes(law.entries, entry) ? law.name : ""; });
   }
 
   void add_law_choices(const std::string &present, const LawParameters &parameters, ModelChoices &choices)

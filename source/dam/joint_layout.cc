@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/contact/law_table.h>
 #include <voussoir/dam/joint_layout.h>
 #include <voussoir/dynamics/impact.h>
@@ -198,9 +199,8 @@ namespace Voussoir
     }
     if (!found.empty() || key == "contraction" || merged_lifts.count(key) > 0)
       return found;
-    std::string text;
-    for (const auto &[kind, name] : examples)
-      text += (text.empty() ? "" : ", ") + name + ", " + kind;
+    const std::string text =
+        listed(examples, [](const auto &example) { return example.second + ", " + example.first; });
     throw InputError(
         what +
         (std::isdigit(static_cast<unsigned char>(key[0])) ? "joint " + key : "the joint \"" + key + "\"") +
@@ -272,9 +272,7 @@ namespace Voussoir
       std::set<unsigned int> crossing;
       for (const unsigned int p : structure.clusters[0])
         crossing.insert(structure.pairs[p].joint);
-      std::string names;
-      for (const unsigned int j : crossing)
-        names += (names.empty() ? "" : ", ") + joints[j].name();
+      const std::string names = listed(crossing, [&](const unsigned int j) { return joints[j].name(); });
       throw InputError("Joints cross at " + place(structure.pairs[structure.clusters[0][0]].place) + " (" +
                        names + "), which requires \"Dynamics/Impact\" = mean-force, not " +
                        scene.impact_rule + ".");

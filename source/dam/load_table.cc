@@ -220,11 +220,8 @@ namespace Voussoir
 
   std::string static_load_docs()
   {
-    std::string text;
-    for (const LoadRow &row : load_table())
-      text += (text.empty() ? "" : ", ") + std::string(row.name) +
-              (*row.help == '\0' ? "" : " (" + std::string(row.help) + ")");
-    return text;
+    return listed(load_table(), [](const LoadRow &row)
+                  { return row.name + (*row.help == '\0' ? "" : " (" + std::string(row.help) + ")"); });
   }
 
   void add_load_parameters(LoadParameters &loads, Entries &prm)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/curve_file.h>
 #include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/base/nearest_name.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/dam/rock_wedge.h>
@@ -317,10 +318,9 @@ namespace Voussoir
       result.push_back({wedge, part_on(wedge)});
       if (result.back().part.n_faces > 0)
         continue;
-      std::string outside; // planes with the whole base on their other side
-      for (const WedgePlane &plane : wedge.planes)
-        if (part_on({"", {plane}}).n_faces == 0)
-          outside += (outside.empty() ? "" : ", ") + plane.name;
+      const auto is_outside = [&](const WedgePlane &plane) { return part_on({"", {plane}}).n_faces == 0; };
+      const std::string outside = // planes with the whole base on their other side
+          listed(wedge.planes, [&](const WedgePlane &plane) { return is_outside(plane) ? plane.name : ""; });
       throw InputError(
           "Entry \"Limits/Wedges\": no face of the surface \"base\" rests on wedge \"" + wedge.name +
           "\", so the dam would not load it. " +

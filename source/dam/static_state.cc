@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/base/tensor3.h>
 #include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/fja_law.h>
@@ -75,10 +76,7 @@ namespace Voussoir
 
     std::string names_of(const std::vector<const Body *> &bodies)
     {
-      std::string names;
-      for (const Body *body : bodies)
-        names += (names.empty() ? "" : ", ") + body->name();
-      return names;
+      return listed(bodies, [](const Body *body) { return body->name(); });
     }
 
     /** Returns a sentence about the slopes of the base joints of bodies, if they exceed the angle of friction. */

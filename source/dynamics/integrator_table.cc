@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/internal_error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/dynamics/integrator_table.h>
 #include <voussoir/dynamics/leapfrog.h>
 #include <voussoir/dynamics/newmark.h>
@@ -35,18 +36,12 @@ namespace Voussoir
 
   std::string integrator_names()
   {
-    std::string names;
-    for (const IntegratorRow &row : integrator_table())
-      names += (names.empty() ? "" : "|") + std::string(row.name);
-    return names;
+    return names_of(integrator_table());
   }
 
   std::string integrator_docs()
   {
-    std::string docs;
-    for (const IntegratorRow &row : integrator_table())
-      docs += (docs.empty() ? "" : "; ") + std::string(row.name) + ": " + row.doc;
-    return docs;
+    return docs_of(integrator_table());
   }
 
   std::unique_ptr<Integrator> make_integrator(const std::string &name, const IntegratorInput &input)

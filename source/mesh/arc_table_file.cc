@@ -4,6 +4,8 @@
 #include <voussoir/base/number_text.h>
 #include <voussoir/mesh/arc_table_file.h>
 
+#include <boost/algorithm/string/join.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -25,14 +27,6 @@ namespace Voussoir
         cells.push_back(first == std::string::npos ? "" : cell.substr(first, last - first + 1));
       }
       return cells;
-    }
-
-    std::string list_of(const std::vector<std::string> &names)
-    {
-      std::string text;
-      for (const std::string &name : names)
-        text += (text.empty() ? "" : ", ") + name;
-      return text;
     }
 
     double value_of(const std::string &text, const std::string &column, const std::string &place)
@@ -106,7 +100,7 @@ namespace Voussoir
           if (const auto n = std::count(names.begin(), names.end(), column); n != 1)
             throw InputError(
                 file + ": the column " + column + " is " + (n == 0 ? "missing" : "there twice") +
-                ". The first line must name " + list_of(columns) +
+                ". The first line must name " + boost::algorithm::join(columns, ", ") +
                 ", separated by commas. Decimals have a point. Entry \"Mesh/Arcs/Kind\" sets the "
                 "kind of arcs.");
         continue;
@@ -122,7 +116,8 @@ namespace Voussoir
       table.rows.push_back(row);
     }
     if (names.empty())
-      throw InputError(file + ": the table is empty. The first line must name " + list_of(columns) + ".");
+      throw InputError(file + ": the table is empty. The first line must name " +
+                       boost::algorithm::join(columns, ", ") + ".");
     std::stable_sort(table.rows.begin(), table.rows.end(),
                      [](const auto &a, const auto &b) { return a[0] < b[0]; });
     check_values(table, columns[1] == "face");

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/mesh/arc_table_file.h>
 #include <voussoir/mesh/arch_table.h>
 #include <voussoir/mesh/centre_line.h>
 #include <voussoir/mesh/monotone_cubic.h>
 
+#include <boost/algorithm/string/join.hpp>
 #include <boost/math/interpolators/cubic_hermite.hpp>
 
 #include <algorithm>
@@ -295,23 +297,17 @@ namespace Voussoir
 
   std::string arc_kinds()
   {
-    std::string text;
-    for (const ArcKind &kind : rows_of_arcs)
-      text += (text.empty() ? "" : "|") + std::string(kind.name);
-    return text;
+    return names_of(rows_of_arcs);
   }
 
   std::string arc_kind_docs()
   {
-    std::string text;
-    for (const ArcKind &kind : rows_of_arcs)
+    const auto doc = [](const ArcKind &kind)
     {
-      text += (text.empty() ? "" : "; ") + std::string(kind.name) + ": " + kind.doc + " (columns ";
-      for (const std::string &column : kind.columns)
-        text += (column == kind.columns.front() ? "" : ", ") + column;
-      text += ")";
-    }
-    return text;
+      return std::string(kind.name) + ": " + kind.doc + " (columns " +
+             boost::algorithm::join(kind.columns, ", ") + ")";
+    };
+    return listed(rows_of_arcs, doc, "; ");
   }
 
   std::unique_ptr<ArchShape> read_arch_table(const std::string &file, const std::string &name)

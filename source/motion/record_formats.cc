@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/names.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/base/units.h>
 #include <voussoir/motion/record_formats.h>
@@ -300,9 +301,6 @@ namespace Voussoir
 
   std::string record_format_names()
   {
-    std::string names;
-    for (const RecordFormat &format : formats)
-      names += (names.empty() ? "" : ", ") + std::string(format.name);
-    return names;
+    return names_of(formats, ", ");
   }
 } // namespace Voussoir

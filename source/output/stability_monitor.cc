@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/base/tensor3.h>
 #include <voussoir/dam/static_state.h>
 #include <voussoir/output/stability_monitor.h>
@@ -151,10 +152,8 @@ namespace Voussoir
 
   std::string StabilityMonitor::suggestions() const
   {
-    std::string own;
-    for (const NeighbourMonitor *monitor : of_neighbours)
-      own += (own.empty() ? "" : " ") + monitor->suggestions();
-    if (!own.empty())
+    const auto of = [](const NeighbourMonitor *monitor) { return monitor->suggestions(); };
+    if (const std::string own = listed(of_neighbours, of, " "); !own.empty())
       return own;
     std::ostringstream text;
     text.precision(3);

@@ -54,10 +54,7 @@ namespace Voussoir
 
   std::string boundary_help()
   {
-    std::string text;
-    for (const BoundaryRow &row : boundary_table())
-      text += (text.empty() ? "" : ", ") + row.name + " (" + row.doc + ")";
-    return text;
+    return listed(boundary_table(), [](const BoundaryRow &row) { return row.name + " (" + row.doc + ")"; });
   }
 
   std::unique_ptr<ArtificialBoundary> make_boundary(const std::string &name)

@@ -12,6 +12,17 @@
 
 namespace Voussoir
 {
+  /** Returns a list of the texts that are not empty. @p text: function that returns the text of an item. */
+  template <class Items, class Text>
+  std::string listed(const Items &items, const Text &text, const std::string &separator = ", ")
+  {
+    std::string list;
+    for (const auto &item : items)
+      if (const std::string one = text(item); !one.empty())
+        list += (list.empty() ? "" : separator) + one;
+    return list;
+  }
+
   /** Names of the values of an enumeration in input and output files: {name, value}. T: the enumeration. */
   template <typename T> using Names = std::vector<std::pair<const char *, T>>;
 
@@ -41,20 +52,16 @@ namespace Voussoir
    * dealii::ParameterHandler. */
   template <class Rows> std::string names_of(const Rows &rows, const std::string &separator = "|")
   {
-    std::string list;
-    for (const auto &row : rows)
-      list += (list.empty() ? "" : separator) + row.name;
-    return list;
+    return listed(
+        rows, [](const auto &row) { return std::string(row.name); }, separator);
   }
 
   /** Returns names and descriptions of a table for a help text, such as "rigid: prescribed ground motion at
    * the base of the dam; rock: ...". */
   template <class Rows> std::string docs_of(const Rows &rows)
   {
-    std::string list;
-    for (const auto &row : rows)
-      list += (list.empty() ? "" : "; ") + std::string(row.name) + ": " + row.doc;
-    return list;
+    return listed(
+        rows, [](const auto &row) { return std::string(row.name) + ": " + row.doc; }, "; ");
   }
 
   /** Returns the row with the given @p name from a table. For an unknown name it throws InputError with the
@@ -73,10 +80,8 @@ namespace Voussoir
   /** Returns the names of all values as a selection of dealii::ParameterHandler, such as "mean-force|none". */
   template <typename T> std::string selection(const Names<T> &names)
   {
-    std::string list;
-    for (const auto &entry : names)
-      list += (list.empty() ? "" : "|") + std::string(entry.first);
-    return list;
+    return listed(
+        names, [](const auto &entry) { return std::string(entry.first); }, "|");
   }
 
   /** Returns the value with a given name.
