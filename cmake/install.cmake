@@ -27,7 +27,7 @@ install(FILES ${CMAKE_BINARY_DIR}/cmake/VoussoirConfig.cmake ${CMAKE_BINARY_DIR}
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(TARGETS voussoir RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 # The program writes its completion for bash.
-install(CODE "execute_process(COMMAND \"$<TARGET_FILE:voussoir>\" completion bash OUTPUT_FILE \"${CMAKE_BINARY_DIR}/voussoir.bash\" RESULT_VARIABLE status)
+install(CODE "execute_process(COMMAND \${CMAKE_COMMAND} -E env PYTHONDONTWRITEBYTECODE=1 \"$<TARGET_FILE:voussoir>\" completion bash OUTPUT_FILE \"${CMAKE_BINARY_DIR}/voussoir.bash\" RESULT_VARIABLE status)
   if(status)
     message(FATAL_ERROR \"voussoir completion bash: \${status}\")
   endif()")

@@ -215,6 +215,7 @@ namespace
    * motion in half of the runs. */
   void test_reversal()
   {
+    double excess = 0.; // of friction over its limit, or tension [N]
     for (const bool has_water : {false, true})
       for (const double w : {7., 19., 41.})
       {
@@ -223,12 +224,19 @@ namespace
           p.column.structure.mass[p.column.node[0][0]] = {{2., .5, .3, .5, 1.5, .2, .3, .2, 1.}};
         Leapfrog leapfrog(p.column.structure, p.laws, .005, 1);
         leapfrog.start({0., 0., 0.}, {0., 0., 0.}, {g, 0., 0.}, {-g, 0., 0.}, {0., 0., 0.});
-        run(leapfrog, .005, 800,
+        run(
+            leapfrog, .005, 800,
             [&](const double t, Unknowns &f) {
               f = {-g, .8 * g * std::sin(w * t), .6 * g * std::sin(1.6 * w * t)};
             },
-            {0., 0., 0.});
+            {0., 0., 0.},
+            [&]
+            {
+              const Unknowns &f = leapfrog.state().force;
+              excess = std::max({excess, length(f[1], f[2]) - .4 * f[0], -f[0]});
+            });
       }
+    below("reversed slip: excess over the limit of friction, over the weight", excess / g, 1e-12);
     account("reversed slip");
   }
 

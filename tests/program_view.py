@@ -41,6 +41,10 @@ def view():
     limit = runs("scene.prm", "--validate").split("explicit scheme for the dam ")[1].split()[0]  # [ms]
     expect(f"critical step {limit} ms at (" in text, text)
     small = picture_of("dam/view.png")
+    text = runs("view", "scene.prm", "--output", "dam", "--set", "Motion/Source=none")
+    expect("no critical step: no motion" in text, text)
+    text = runs("view", "scene.prm", "--output", "dam", "--set", "Reservoir/Water level=1000")
+    expect("no critical step: " in text and "1000" in text, text)
     mesh, surfaces = read_vtu("dam/mesh.vtu"), read_vtu("dam/surfaces.vtu")
     volume = [set() for _ in range(4)]
     for number in mesh["monolith"]:

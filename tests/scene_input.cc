@@ -428,6 +428,7 @@ namespace
     Scene   scene;
     scene.add_parameters(prm);
     const UsualRanges &usual = prm.usual_ranges();
+    expect(usual.size() >= 81, "the number of usual ranges");
     for (const auto &[name, range] : usual)
       expect(range.low < range.high, "the usual range of " + name);
     for (const char *name : {"Mesh/Arch210/Rock/Depth", "Concrete/Density", "Joints/Friction",

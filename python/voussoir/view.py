@@ -16,7 +16,7 @@ import numpy as np
 from matplotlib.collections import PolyCollection
 
 from .command import Parser
-from .errors import InputError
+from .errors import InputError, VoussoirError
 from .program import call, entries_of, set_options
 from .drawing import plt
 from .picture import CONCRETE, FACES, draw_mesh, view_of
@@ -192,12 +192,12 @@ def sheet(mesh, level, wet, title, path):
 
 
 def critical_step(scene, overrides):
-    """The critical step of the explicit scheme with its place, in words; empty without a motion or if the input is invalid."""
+    """The critical step of the explicit scheme for the dam with its place, or why there is none, in words."""
     try:
         facts = json.loads(call(scene, "--validate", "--json", *set_options(overrides)))
-    except InputError:
-        return ""
-    return f"critical step {1e3 * facts['critical_step']:.4g} ms at {facts['critical_place']}" if "critical_step" in facts else ""
+    except VoussoirError as error:
+        return f"no critical step: {error}"
+    return f"critical step {1e3 * facts['critical_step']:.4g} ms at {facts['critical_place']}" if "critical_step" in facts else "no critical step: no motion"
 
 
 def main():
@@ -226,11 +226,11 @@ def main():
     wet = density > 0. and len(upstream) > 0 and level > upstream[:, :, 2].min()
     critical = critical_step(scene, options.overrides)
     sheet(mesh, level, wet, f"{scene.stem}: {(mesh.volume < FIRST_ROCK).sum()} cells of the dam, {len(set(mesh.volume[mesh.volume < FIRST_ROCK]))} "
-          f"monoliths, joints {entries['Joints/Model']}{critical and '; ' + critical}", output / "view.png")
+          f"monoliths, joints {entries['Joints/Model']}{'; ' + critical if critical.startswith('critical') else ''}", output / "view.png")
     write_vtu(output / "mesh.vtu", mesh.points, mesh.cells, 12, cell_data={"monolith": mesh.volume})
     write_vtu(output / "surfaces.vtu", mesh.points, mesh.quads, 9, cell_data={"group": mesh.surface})
     groups = ", ".join(f"{name} {number}" for (dimension, number), name in sorted(mesh.names.items()) if dimension == 2)
-    print(f"Groups    {groups}\nExplicit  {critical or 'no critical step, because there is no motion or the input is invalid'}\n"
+    print(f"Groups    {groups}\nExplicit  {critical}\n"
           f"Picture   {output / 'view.png'}\n"
           f"ParaView  {output / 'mesh.vtu'}, {output / 'surfaces.vtu'}")
     return 0

@@ -190,7 +190,8 @@ namespace Voussoir
                  scene.is_explicit() ? "" : " (without rock and Rayleigh damping)",
                  dam.facts.critical_place.c_str());
       if (dam.facts.critical_step > .1 * run.motion.dt && !scene.is_explicit() && // see benchmarks/schemes.py
-          scene.foundation.model == "rigid" && scene.impact_rule == "mean-force")
+          scene.foundation.model == "rigid" && scene.impact_rule == "mean-force" &&
+          scene.joints.model == "FJA")
         log.line(
             "          \"Dynamics/Scheme\" = explicit is probably three to five times cheaper at equal error");
       if (run.n_steps > 0 && scene.is_explicit())

@@ -53,6 +53,7 @@ namespace Voussoir
       const std::vector<StaticStage> stages = static_stages(scene.statics.stages);
       return std::all_of(scene.joints.overrides.begin(), scene.joints.overrides.end(), is_tied_lift) &&
              std::all_of(scene.joints.gaps.begin(), scene.joints.gaps.end(), has_whole) &&
+             std::all_of(scene.joints.clearances.begin(), scene.joints.clearances.end(), has_whole) &&
              std::all_of(stages.begin(), stages.end(), is_no_cut_of_part);
     }
 
@@ -183,7 +184,12 @@ namespace Voussoir
     for (const auto &joint : scene.joints.gaps)
       named(joint.first, "Entry \"Joints/Initial gaps\" names ");
     for (const auto &joint : scene.joints.clearances)
-      named(joint.first, "Entry \"Joints/Keys/Clearances\" names ");
+      for (const std::size_t j : named(joint.first, "Entry \"Joints/Keys/Clearances\" names "))
+        if (!tie_all && models[j] != "KSM")
+          throw InputError(
+              "Entry \"Joints/Keys/Clearances\" names " + joints[j].name() + ", whose law " + models[j] +
+              " has no keys. Set its model to KSM (\"Joints/Model\" or \"Joints/Overrides\"), or remove "
+              "the clearance.");
   }
 
   std::vector<std::size_t> JointLayout::named(const std::string &key, const std::string &what) const

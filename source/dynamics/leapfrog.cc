@@ -258,7 +258,7 @@ namespace Voussoir
     if (!(work > 0.) || !(laws.of_pair[p]->flat_friction() > 0.))
       return f;
     const double less = std::min(1., work / (dot(t, Ht) - Ht[0] * Ht[0] / H[0]));
-    return {{f[0] + less * Ht[0] / H[0], (1. - less) * f[1], (1. - less) * f[2]}};
+    return {{std::max(0., f[0] + less * Ht[0] / H[0]), (1. - less) * f[1], (1. - less) * f[2]}};
   }
 
   /** Adds the impulse of a joint force to #next. */

@@ -150,7 +150,7 @@ VOUSSOIR_INLINE void avoid_gain(const BatchPair &pair, const Vector b[3], const 
                       f[2] * (b[2] + pair.H_2n * f[0] + pair.H_22 * f[2] + moved2);
   const Vector most = pair.H_11 * f[1] * f[1] + pair.H_22 * f[2] * f[2] - n * n / pair.H_nn + 1e-30f;
   const Vector less = smaller(larger(work, zero) / most, one);
-  f[0] += less * n / pair.H_nn, f[1] -= less * f[1], f[2] -= less * f[2];
+  f[0] = larger(f[0] + less * n / pair.H_nn, zero), f[1] -= less * f[1], f[2] -= less * f[2];
 }
 
 /** Solves the conditions of a joint without slip. @p b: gap without force. */

@@ -70,7 +70,7 @@ namespace Voussoir
     void analyse(Order order);
 
     /** Computes A = L L^T in the order of analyse(). Throws ComputationError if A is not positive definite
-     * (no support, or distorted elements), or, with the interface last, if the body is not connected. */
+     * (no support, or distorted elements). */
     void factorise();
 
     /** Returns the number of entries of L, after analyse(): those of the leading columns for
