@@ -455,7 +455,8 @@ namespace Voussoir
           state.load = path.load(stage, share);
           if (water)
             water->add_forces(pressure, state.load);
-          const ContactResult result = dam.foundation->solve_static(solve, springs, state.u, state.load, log);
+          const ContactResult result =
+              dam.foundation->solve_static(solve, springs, state.u, state.load, failure, log);
           total += result;
           if (!result.converged)
           {
@@ -478,24 +479,31 @@ namespace Voussoir
                 << " The residual is " << result.residual << " of the joint forces and "
                 << result.residual_over_load << " of the load (limit " << parameters.tolerance
                 << ", from \"Contact/Tolerance\"), after " << result.iterations << " Newton steps. ";
-        const double share = result.residual / parameters.tolerance;
-        if (parameters.method != "newton")
+        const double       share = result.residual / parameters.tolerance;
+        const unsigned int p = result.worst_pair;
+        const int          joint = p < dam.structure.pairs.size() ? int(dam.structure.pairs[p].joint) : -1;
+        if (joint >= 0 && !dam.layout.joints[joint].is_contraction() &&
+            dam.layout.laws.of_joint[joint]->surfaces_law() != nullptr)
+          message
+              << "The law of this joint has keys, which may not have a unique state between blocks that move. Set "
+                 "it to FJA in \"Joints/Overrides\".";
+        else if (parameters.method != "newton")
           message << "Set \"Contact/Method\" to newton.";
         else if (result.iterations == 0 || share < 1e3) // near the round-off, or no step is possible
           message << "More increments or iterations will not help. Set \"Contact/Tolerance\" to "
                   << dam.scene.contact.tolerance * std::pow(10., std::ceil(std::log10(share)))
                   << ", or \"Contact/Method\" to proximal.";
-        else if (path.depends_on_increments())
-          message
-              << "The increments were halved already. Increase \"Contact/Maximum iterations\", or divide the stage.";
         else
-          message << "Increase \"Statics/Water increments\" or \"Contact/Maximum iterations\".";
+          message << (path.is_weight_alone(stage)    ? "Bond the base or lift joints (\"Joints/Overrides\")"
+                      : path.depends_on_increments() ? "The increments were halved already. Divide the stage"
+                                                     : "Increase \"Statics/Water increments\"")
+                  << ", or increase \"Contact/Maximum iterations\".";
         return message.str();
       }
 
       [[noreturn]] void throw_failure() const
       {
-        if (path.is_weight_alone(stage) && failure.rfind("The static state did not converge", 0) != 0)
+        if (path.is_weight_alone(stage) && failure.find("did not converge") == std::string::npos)
           throw InputError(failure);
         throw ComputationError(failure);
       }

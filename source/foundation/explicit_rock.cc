@@ -139,9 +139,9 @@ namespace Voussoir
   }
 
   ContactResult ExplicitRock::solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
-                                           Unknowns &load, Log &log)
+                                           Unknowns &load, std::string &failure, Log &log)
   {
-    return existing(static_state).solve(solve, springs, u, load, log);
+    return existing(static_state).solve(solve, springs, u, load, failure, log);
   }
 
   /** P waves enter later than the slower S waves, so that all components of the ground motion arrive at the

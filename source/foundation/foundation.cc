@@ -103,7 +103,7 @@ namespace Voussoir
   }
 
   ContactResult BaseSupport::solve_static(const DamSolve &solve, const Unknowns &, const Unknowns &,
-                                          Unknowns       &load, Log &)
+                                          Unknowns       &load, std::string &, Log &)
   {
     return solve(load);
   }

@@ -200,7 +200,7 @@ namespace Voussoir
   }
 
   ContactResult RockStaticState::solve(const DamSolve &solve_dam, const Unknowns &springs, const Unknowns &u,
-                                       Unknowns &load, Log &log)
+                                       Unknowns &load, std::string &failure, Log &log)
   {
     constexpr double  enough = 1e-9;
     const std::size_t n = 3 * base_nodes.size();
@@ -252,7 +252,8 @@ namespace Voussoir
           << " iterations. Check the entries of the section Foundation and the quality of the rock elements "
              "(`voussoir mesh`). Blocks that slide or open without self-weight can have no unique state: bond base and "
              "lift joints (\"Joints/Overrides\" = base: tied, lift: tied).";
-      throw ComputationError(message.str());
+      failure = message.str();
+      total.converged = false;
     }
     for (std::size_t k = 0; k < r.size(); ++k)
       load[k] -= r[k];

@@ -8,10 +8,10 @@ Factors and their levels are the selections and switches of `voussoir parameters
 levels and lists are given here. A greedy array of strength 2 covers each pair of levels of two factors by a scene in which both have an
 effect. If the program refuses a scene, the responsible pair is found by experiments, and the scene is changed there. Prints the number of
 pairs, the checks, and each failure with its command. Exit status: 1 if a relation fails or a pair is neither covered nor refused,
-or the page of the manual is another.
+or the program accepts a pair that is refused in the manual.
 
 --tenth         the first tenth of the array
---list-refused  writes the refused pairs as a page of the manual (refused_pairs.md is that of seed 1; the tenth relies on it)
+--list-refused  writes the refused pairs as a page of the manual
 --draw          draws and validates the scenes only
 --only K        the scene K of the last array in this directory only, with all relations
 """
@@ -70,7 +70,7 @@ def checked(case, relation):
     except Omitted as error:
         verdict = "does not apply"
         if relation is first:
-            print(f"    no solution of scene {case.number}: {error}", flush=True)
+            print(f"    no solution of scene {case.number}: {error}\n        {case.net.choices.name(case.scene)}", flush=True)
     except Exception as error:  # pylint: disable=broad-except
         if "did not converge" in str(error) and not always_converges(case.scene):
             print(f"    no solution of scene {case.number}, {relation.__name__}: {error}", flush=True)
@@ -151,11 +151,10 @@ def main():
         print("|", name, "|", " | ".join(str(sum(row[2] == verdict for row in of_relation)) for verdict in ("holds", "does not apply", "failed")), "|",
               f"{sum(row[3] for row in of_relation):.0f} |")
     pairs, failures = net.counts(), sum(row[2] == "failed" for row in rows)
-    if not options.tenth and options.only is None and options.seed == "1":
-        listed, found = (set(re.findall(r"^\| (`.*?`) \|", text, re.M)) for text in (PAGE.read_text(), page_of(net)))
-        accepted = [f"{row}: in {PAGE.name} only" for row in listed - found] + [f"{row}: not in {PAGE.name}" for row in found - listed]
-    for row in sorted(accepted):
-        print(f"refused pair {row}. Write the page with --list-refused.")
+    if not options.tenth and options.only is None:
+        accepted = Net(directory, options.seed).read_page(PAGE, 1)
+    for row in accepted:
+        print(f"accepted, but refused in {PAGE.name}: {row}")
     for pair in sorted(map(sorted, net.open_pairs())) if not options.tenth else ():
         print(f"open: {pair}")
     print(f"\n{len(net.scenes)} scenes, {pairs}, {len(rows)} checks, {failures} failures, {time.time() - begin:.0f} s, "

@@ -63,7 +63,7 @@ def scales(laws, loads):
                              "adhesive": {"Joints/Adhesion": "2e5"}},
         **lists("Joints/Initial gaps", {"contraction": "contraction: 2 mm", "base": "base: 1 mm", "lift": "lift: 1 mm"}),
         "keys": {"tight": {}, "loose": {"Joints/Keys/Clearance": "0.002", "Joints/Keys/Flank angle": "30"}, "rigid": {"Joints/Keys/Seat compliance": "0"}},
-        **lists("Statics/Stages", {"fill": "fill {.3}", "grout": "grout {.6}, fill {.3}", "grout with pressure": "fill {.3}, grout {1} at 0.2 MPa",
+        **lists("Statics/Stages", {"fill": "fill {.3}", "grout": "grout {.6}, fill {.3}", "grout with pressure": "grout {1} at 0.2 MPa, fill {.3}",
                                    "cut": "fill {.4}, cut contraction by 1 mm", "day": "fill {.3}, day 30"}),
         **values("Statics/Water increments", "1", "3"),
         "water level": {"high": {}, "half": {WATERLINE: "{.4}"}, "below the dam": {WATERLINE: "{-.1}"}, "none": {"Reservoir/Density": "0"}},

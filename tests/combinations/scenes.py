@@ -209,7 +209,7 @@ class Net:
             if all(level in self.choices.factors.get(name, ()) for name, level in levels):
                 self.refused[levels] = message
                 if number % share == first and not isinstance(self.validated({**self.choices.default, **dict(levels)}), str):
-                    accepted.append(f"`{row}`: accepted")
+                    accepted.append(row)
                     del self.refused[levels]
         return accepted
 

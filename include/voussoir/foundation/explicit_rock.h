@@ -54,7 +54,7 @@ namespace Voussoir
     // Static state by RockStaticState. Must be called after add_stiffness() and before start().
     Unknowns      static_springs(const Structure &structure) const override;
     ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
-                               Unknowns &load, Log &log) override;
+                               Unknowns &load, std::string &failure, Log &log) override;
 
     /** Throws InputError in these cases: - the time step of the rock exceeds the critical one, - the
      * artificial boundary would be unstable (ArtificialBoundary::check()) or is too close to the

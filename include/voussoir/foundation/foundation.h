@@ -159,12 +159,13 @@ namespace Voussoir
      * @param springs auxiliary springs of static_springs(), three values per node of the dam [N/m]
      * @param u displacements of the dam, three values per node; each call of @p solve changes them [m]
      * @param load nodal loads of the dam, three values per node [N]. Forces of the foundation are added.
+     * @param failure message if dam and foundation do not converge
      * @param log receives the progress
      *
-     * Returns convergence and costs of the contact problems. They have not converged if
-     * ContactResult::converged is false. Throws ComputationError if dam and foundation do not converge. */
+     * Returns costs of the contact problems. ContactResult::converged is false if one of them, or dam and
+     * foundation, did not converge. */
     virtual ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
-                                       Unknowns &load, Log &log);
+                                       Unknowns &load, std::string &failure, Log &log);
 
     /** Returns the strain energy of massless rock in the static state [J], otherwise zero. It is zero before
      * support(). */

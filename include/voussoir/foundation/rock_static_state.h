@@ -40,7 +40,7 @@ namespace Voussoir
      * BaseSupport::solve_static(). The first call creates the solver of the rock, which later calls use
      * again. Must be called by all ranks. */
     ContactResult solve(const DamSolve &solve_dam, const Unknowns &springs, const Unknowns &u, Unknowns &load,
-                        Log &log);
+                        std::string &failure, Log &log);
 
   private:
     /** Computes the static displacements @p u_base of the base nodes [m] for the forces @p r on the rock,
