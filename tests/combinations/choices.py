@@ -27,7 +27,7 @@ NEEDS = {("Motion/Source", "file"): {"Motion/File": "motion.txt", "Motion/Unit":
          ("Foundation/Model", "massless"): {"Mesh/GRID/Rock/Element size": "{.5m}", **{f"Mesh/GRID/Rock/{side}": "{.5m}" for side in (
              "Upstream", "Downstream", "Sides", "Depth")}},
          ("Foundation/Boundary", "mtf4"): {"Mesh/GRID/Rock/Boundary layers": "9"},
-         ("Foundation/Model", "rock"): {"Mesh/GRID/Rock/Element size": "{.3m}", "Motion/Duration": "0.35"}}  # waves arrive after 0.25 s
+         ("Foundation/Model", "rock"): {"Mesh/GRID/Rock/Element size": "{.3m}", "Motion/Duration": "0.35"}}  # waves arrive after 0.25 s; mtf4 drifts later
 LAW_NEEDS = {"KSM": {"Joints/Keys/Height": "0.15"}, "cohesive": {"Joints/Strength": "1e6", "Joints/Fracture energy": "200"}}
 DEFAULTS = {"Motion/Source": "file"}  # others than those of the program
 # Entries that are no factors: the section Mesh has its own factors below; an entry of older versions; figures need matplotlib; a
@@ -158,8 +158,8 @@ class Choices:
             for entry, value in levels[scene[name]].items():
                 if entry in COMMON and entry in result:
                     value = f"{result[entry]}, {value}"
-                if entry == "Motion/Duration" and result[entry] != BASE[entry]:
-                    continue  # other choices need a longer record
+                if entry == "Motion/Duration" and result[entry] != BASE[entry]:  # other choices need longer records
+                    value = "0.15" if result[entry] == "0.35" else result[entry]
                 if entry in result or value != self.program.get(entry, {}).get("default_value"):
                     result[entry] = value
         grid = "Arcs" if scene["mesh"] == "arcs" else "Arch210"
