@@ -6,6 +6,7 @@
 
 #include <voussoir/base/entries.h>
 #include <voussoir/base/output_file.h>
+#include <voussoir/dam/mesh_warnings.h>
 #include <voussoir/mesh/gmsh_io.h>
 #include <voussoir/mesh/mesh_joints.h>
 #include <voussoir/mesh/mesh_source.h>
@@ -217,6 +218,14 @@ namespace
       std::swap_ranges(cell.nodes.begin(), cell.nodes.begin() + 4, cell.nodes.begin() + 4);
     normalize(mirrored);
     check_mesh(mirrored, "mirrored");
+
+    HexMesh     apart = bar(3); // the third cube belongs to the first one's monolith, which it does not touch
+    const Scene scene;
+    apart.cells[2].volume = 1;
+    const std::vector<std::string> warnings = mesh_warnings(open_joints(apart), scene, {Zone()});
+    expect(warnings.size() == 1 && warnings[0].find("monolith 1 has 2 parts") == 0,
+           "a monolith in two parts");
+    expect(mesh_warnings(open_joints(bar(3)), scene, {Zone()}).empty(), "monoliths in one part each");
 
     HexMesh gap = open_joints(bar(3));
     for (const auto &face : gap.faces)

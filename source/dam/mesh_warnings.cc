@@ -32,6 +32,28 @@ namespace Voussoir
       return text.str();
     }
 
+    /** Returns a warning about a block of concrete in parts without common nodes, or an empty string. */
+    std::string separate_parts(const HexMesh &opened)
+    {
+      NumberPairs pairs;
+      for (const HexMesh::Cell &cell : opened.cells)
+        for (const unsigned int node : cell.nodes)
+          pairs.emplace_back(cell.nodes[0], node);
+      const std::vector<unsigned int>       part_of = smallest_of_sets(opened.nodes.size(), pairs);
+      std::map<int, std::set<unsigned int>> parts; // of each block: their smallest nodes
+      for (const HexMesh::Cell &cell : opened.cells)
+        if (is_monolith(cell.volume))
+          parts[cell.volume].insert(part_of[cell.nodes[0]]);
+      for (const auto &[volume, first] : parts)
+        if (first.size() > 1)
+          return physical_name(3, volume) + " has " + std::to_string(first.size()) +
+                 " parts without common nodes, such as those at " + place(opened.nodes[*first.begin()]) +
+                 " and " + place(opened.nodes[*first.rbegin()]) +
+                 ". No force acts between them. Merge their nodes in the mesh, or give them different numbers, so "
+                 "that a joint connects them.";
+      return "";
+    }
+
     /** Returns the largest distance of neighbouring nodes on joints with a fracture energy [m]. */
     double distance_of_pairs(const HexMesh &opened, const Scene &scene)
     {
@@ -80,8 +102,8 @@ namespace Voussoir
     for (const Zone &zone : zones)
       young = std::min(young, zone.material.young);
     std::vector<std::string> warnings;
-    for (const std::string &warning :
-         {split_tetrahedra(opened, scene), long_elements_on_bonds(opened, scene, young)})
+    for (const std::string &warning : {separate_parts(opened), split_tetrahedra(opened, scene),
+                                       long_elements_on_bonds(opened, scene, young)})
       if (!warning.empty())
         warnings.push_back(warning);
     return warnings;

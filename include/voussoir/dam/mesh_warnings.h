@@ -6,8 +6,8 @@
 
 namespace Voussoir
 {
-  /** Returns warnings about elements that are too distorted for their degree, or too long for cohesive
-   * joints.
+  /** Returns warnings about blocks in several parts, and elements that are too distorted for their degree, or too long
+   * for cohesive joints.
    * @param opened mesh of the dam with open joints
    * @param scene input file
    * @param zones all zones of the concrete in the mesh */
