@@ -67,7 +67,7 @@ namespace Voussoir
    * pair. The time integration stores the history variables, also for reduced time steps and checkpoints.
    *
    * Order of the calls in a time step (4: trapezoidal scheme only):
-   * 1. solve(), in implicit steps also evaluate() and error(), until all pairs converge;
+   * 1. solve(), in implicit steps also evaluate() and error(), until all pairs converge; in explicit ones evaluate() last;
    * 2. utilisation() for each pair. If a value exceeds 1, apply_event() for the pairs with the largest
    *    values, and the step is solved again from 1;
    * 3. commit() once for each pair;

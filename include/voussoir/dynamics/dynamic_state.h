@@ -18,7 +18,7 @@ namespace Voussoir
     double impact = 0.;     ///< remaining work in the joints: loss by impacts
     double input = 0.;      ///< work of all loads and of the support
 
-    /** Energy stored by joint laws with several surfaces: flank contacts of shear keys (KSM). */
+    /** Energy stored by flank contacts of shear keys (KSM) and elastic joints (ElasticLaw). */
     double joint_stored = 0.;
 
     /** Energy stored and dissipated by all other joint laws with history variables: bonds (cohesive). */
