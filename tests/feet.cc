@@ -17,7 +17,7 @@ extern "C"
 
 namespace
 {
-  constexpr StepOperator step = {4e6, 1.02, 0., 2.}; // step of 1 ms with damping, mean forces
+  constexpr StepOperator step = {4e6, 1.02, 2.}; // step of 1 ms with damping, mean forces
 
   /** Three blocks in a row, with some of their nodes as base nodes: A u = load + G^T force + L^T
    * base_force, L u = displacement - R base_force. */

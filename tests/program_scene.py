@@ -74,10 +74,10 @@ def options():
     expect(list(keys) == ["Joints"] and list(keys["Joints"]) == ["Keys"] and "Height" in keys["Joints"]["Keys"], f"{keys}")
     for arguments in (["parameters", "Joints/Keys"], ["parameters", "prm", "Joints/Keys"]):
         text = runs(*arguments)
-        expect("set Height" in text and "subsection Keys" in text and "Overrides" not in text, text)
+        expect("set Height" in text and "subsection Keys" in text and "set Overrides" not in text, text)
         expect(re.search(r"# .*Height of the shear keys \[m\]", text), text)
     rows = runs("parameters", "markdown", "Joints/Keys").splitlines()
-    expect(len(rows) == 8 and all("Joints/Keys/" in row for row in rows[2:]), f"{rows}")
+    expect(len(rows) == 9 and all("Joints/Keys/" in row for row in rows[2:]), f"{rows}")
     expect(len(runs("parameters", "markdown", "Joints/Friction").splitlines()) == 3, "a single entry")
     for entry in runs("parameters", "markdown").splitlines()[2:]:
         expect(len(re.findall(r"(?<!\\)\|", entry)) == 4, f"columns of {entry}")
