@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/error.h>
+#include <voussoir/base/number_text.h>
 #include <voussoir/foundation/rock_static_state.h>
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 
 namespace Voussoir
 {
@@ -245,14 +245,12 @@ namespace Voussoir
     }
     if (total.converged && error > enough)
     {
-      std::ostringstream message;
-      message
-          << "The static state of dam and rock did not converge: relative error " << error << " (limit "
-          << enough << ") after " << round
-          << " iterations. Check the entries of the section Foundation and the quality of the rock elements "
-             "(`voussoir mesh`). Blocks that slide or open without self-weight can have no unique state: bond base and "
-             "lift joints (\"Joints/Overrides\" = base: tied, lift: tied).";
-      failure = message.str();
+      failure =
+          "The static state of dam and rock did not converge: relative error " + number_text(error) +
+          " (limit " + number_text(enough) + ") after " + std::to_string(round) +
+          " iterations. Check the entries of the section Foundation and the quality of the rock elements "
+          "(`voussoir mesh`). Blocks that slide or open without self-weight can have no unique state: bond base and "
+          "lift joints (\"Joints/Overrides\" = base: tied, lift: tied).";
       total.converged = false;
     }
     for (std::size_t k = 0; k < r.size(); ++k)
