@@ -43,8 +43,8 @@ def view():
     small = picture_of("dam/view.png")
     text = runs("view", "scene.prm", "--output", "dam", "--set", "Motion/Source=none")
     expect("no critical step: no motion" in text, text)
-    text = runs("view", "scene.prm", "--output", "dam", "--set", "Reservoir/Water level=1000")
-    expect("no critical step: " in text and "1000" in text, text)
+    refused(["view", "scene.prm", "--output", "invalid", "--set", "Reservoir/Water level=1000"], "Reservoir/Water level", "1000")
+    picture_of("invalid/view.png")
     mesh, surfaces = read_vtu("dam/mesh.vtu"), read_vtu("dam/surfaces.vtu")
     volume = [set() for _ in range(4)]
     for number in mesh["monolith"]:

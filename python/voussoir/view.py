@@ -192,11 +192,8 @@ def sheet(mesh, level, wet, title, path):
 
 
 def critical_step(scene, overrides):
-    """The critical step of the explicit scheme for the dam with its place, or why there is none, in words."""
-    try:
-        facts = json.loads(call(scene, "--validate", "--json", *set_options(overrides)))
-    except VoussoirError as error:
-        return f"no critical step: {error}"
+    """The critical step of the explicit scheme for the dam with its place, in words. InputError if the scene cannot be run."""
+    facts = json.loads(call(scene, "--validate", "--json", *set_options(overrides)))
     return f"critical step {1e3 * facts['critical_step']:.4g} ms at {facts['critical_place']}" if "critical_step" in facts else "no critical step: no motion"
 
 
@@ -224,7 +221,10 @@ def main():
                              f"{output / 'mesh.msh'} is the mesh as it is.")
     upstream = mesh.on(UPSTREAM)
     wet = density > 0. and len(upstream) > 0 and level > upstream[:, :, 2].min()
-    critical = critical_step(scene, options.overrides)
+    try:
+        critical, failure = critical_step(scene, options.overrides), None
+    except VoussoirError as error:
+        critical, failure = "no critical step: the scene cannot be run", error
     sheet(mesh, level, wet, f"{scene.stem}: {(mesh.volume < FIRST_ROCK).sum()} cells of the dam, {len(set(mesh.volume[mesh.volume < FIRST_ROCK]))} "
           f"monoliths, joints {entries['Joints/Model']}{'; ' + critical if critical.startswith('critical') else ''}", output / "view.png")
     write_vtu(output / "mesh.vtu", mesh.points, mesh.cells, 12, cell_data={"monolith": mesh.volume})
@@ -233,4 +233,6 @@ def main():
     print(f"Groups    {groups}\nExplicit  {critical}\n"
           f"Picture   {output / 'view.png'}\n"
           f"ParaView  {output / 'mesh.vtu'}, {output / 'surfaces.vtu'}")
+    if failure:
+        raise failure  # after the pictures, which may show the reason
     return 0
