@@ -160,10 +160,11 @@ namespace Voussoir
         return between(points[k], points[k + 1], (s - at_point[k]) / (at_point[k + 1] - at_point[k]));
       }
 
-      /** Returns the coordinate of the nearest point, and its distance. */
+      /** Returns the coordinate of the nearest point, and its distance. Of several points at equal distances, such as on
+       * both sides of a symmetric valley, it returns the mean of the first and the last coordinate. */
       std::pair<double, double> nearest(const Point2 &p) const
       {
-        std::pair<double, double> best(0., 1e300);
+        double first = 0., last = 0., least = 1e300;
         for (std::size_t k = 0; k + 1 < points.size(); ++k)
         {
           const double length = at_point[k + 1] - at_point[k];
@@ -172,12 +173,16 @@ namespace Voussoir
           const double t = std::clamp(((p[0] - points[k][0]) * (points[k + 1][0] - points[k][0]) +
                                        (p[1] - points[k][1]) * (points[k + 1][1] - points[k][1])) /
                                           (length * length),
-                                      0., 1.);
-          if (const double far = Voussoir::distance(p, between(points[k], points[k + 1], t));
-              far < best.second)
-            best = {at_point[k] + t * length, far};
+                                      0., 1.),
+                       far = Voussoir::distance(p, between(points[k], points[k + 1], t)),
+                       equal = 1e-7 * at_point.back();
+          if (far < least + equal)
+            last = at_point[k] + t * length;
+          if (far < least - equal)
+            first = last;
+          least = std::min(least, far);
         }
-        return best;
+        return {.5 * (first + last), least};
       }
 
       /** Returns true if the point is between the bank and the water line. */

@@ -105,7 +105,8 @@ def page_of(net):
 
 def drawn_before(file, number):
     """The scene with this number, as drawn by the last run; a scene may depend on whether those before it have a solution."""
-    return [row for row in map(ast.literal_eval, file.read_text().splitlines()) if row[0] == number][-1:]
+    found = [row for row in map(ast.literal_eval, file.read_text().splitlines() if file.exists() else ()) if row[0] == number]
+    return found[-1:] or sys.exit(f"combinations: the last run in {file.parent} drew no scene {number}.")
 
 
 def main():
@@ -147,6 +148,8 @@ def main():
             elif rows[-1][2] != "failed":
                 net.unsolved()
         rows += [row for check in checks for row in check.result()]
+    if options.list_refused:
+        options.list_refused.write_text(page_of(net))
     print("\n| relation | holds | does not apply | failed | time [s] |\n|---|---|---|---|---|")
     for name in dict.fromkeys(row[1] for row in rows):
         of_relation = [row for row in rows if row[1] == name]
