@@ -10,7 +10,7 @@ effect. If the program refuses a scene, the responsible pair is found by experim
 pairs, the checks, and each failure with its command. Exit status: 1 if a relation fails or a pair is neither covered nor refused,
 or the program accepts a pair that is refused in the manual.
 
---tenth         the first seven scenes; a scene whose first run is slow has no relations that need other runs
+--tenth         the first seven scenes
 --list-refused  writes the refused pairs as a page of the manual
 --draw          draws and validates the scenes only
 --only K        the scene K of the last array in this directory only, with all relations
@@ -33,7 +33,7 @@ from choices import written_files  # noqa: E402
 from relations import ALWAYS, RARE, RELATIONS, Case  # noqa: E402
 from scenes import Failed, Net, Omitted, Refused, cpu_time, first_sentence  # noqa: E402
 
-SLOW = 20.  # first run of a scene with --tenth [s]
+SLOW = 20.  # first run of a scene, above which it has fewer relations [s]
 PAGE = HERE.parent.parent / "doc" / "generated" / "refused_pairs.md"
 
 
@@ -142,8 +142,9 @@ def main():
             case, start = Case(net, number, scene), time.time()
             rows.append(checked(case, first))
             if case.first:
-                at_most = 3 if not options.tenth else 4 if time.time() - start < SLOW else 0
-                relations = (*ALWAYS, *chosen(number, scene, idle, met, len(RELATIONS) if options.only else at_most))
+                is_slow = time.time() - start > SLOW
+                at_most = len(RELATIONS) if options.only else (4, 0)[is_slow] if options.tenth else (3, 1)[is_slow]
+                relations = (*ALWAYS, *chosen(number, scene, idle, met, at_most))
                 checks.append(pool.submit(all_checked, case, relations))
             elif rows[-1][2] != "failed":
                 net.unsolved()
