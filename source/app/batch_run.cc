@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/batch_run.h>
-#include <voussoir/base/error.h>
 #include <voussoir/base/lanes.h>
 #include <voussoir/output/assessment.h>
 #include <voussoir/output/stability_monitor.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/app/memory_need.h>
+#include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/base/ranks.h>
 #include <voussoir/dam/dam.h>

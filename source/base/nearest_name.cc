@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
+#include <voussoir/base/names.h>
 #include <voussoir/base/nearest_name.h>
 
 #include <algorithm>
@@ -32,5 +34,10 @@ namespace Voussoir
                                           [&](const std::string &a, const std::string &b)
                                           { return edit_distance(a, name) < edit_distance(b, name); });
     return nearest == names.end() ? "" : *nearest;
+  }
+
+  void refuse_name(const std::string &message)
+  {
+    throw InputError(message);
   }
 } // namespace Voussoir

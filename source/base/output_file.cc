@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
 #include <voussoir/base/output_file.h>
 
 #include <cerrno>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/curve_file.h>
+#include <voussoir/base/error.h>
 #include <voussoir/base/names.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/dam/reservoir.h>

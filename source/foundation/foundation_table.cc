@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
 #include <voussoir/base/model_choices.h>
 #include <voussoir/base/names.h>
 #include <voussoir/foundation/foundation_table.h>

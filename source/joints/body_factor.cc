@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/base/blas.h>
 #include <voussoir/base/cholmod_objects.h>
+#include <voussoir/base/error.h>
 #include <voussoir/joints/body_factor.h>
 #include <voussoir/joints/packed_factor.h>
 

@@ -2,7 +2,6 @@
 #include <voussoir/base/parallel.h>
 #include <voussoir/joints/joint_system.h>
 
-#include <voussoir/base/error.h>
 #include <voussoir/joints/friction_problem.h>
 #include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // write_gmsh() of gmsh_io.h
 
+#include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/mesh/gmsh_io.h>

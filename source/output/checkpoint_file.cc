@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <boost/crc.hpp>
 
+#include <voussoir/base/error.h>
 #include <voussoir/base/output_file.h>
 #include <voussoir/output/checkpoint_file.h>
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/error.h>
 #include <voussoir/base/internal_error.h>
 #include <voussoir/base/log.h>
 #include <voussoir/motion/ground_motion.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
 #include <voussoir/output/frame_observer.h>
 #include <voussoir/solid/solid_grid.h>
 #include <voussoir/solid/solid_model.h>

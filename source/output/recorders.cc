@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/error.h>
 #include <voussoir/base/lanes.h>
 #include <voussoir/output/recorders.h>
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <voussoir/base/error.h>
 #include <voussoir/base/names.h>
 #include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/fixed_boundary.h>

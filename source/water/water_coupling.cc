@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/mesh/coincident.h>
 #include <voussoir/solid/face_quads.h>
 #include <voussoir/water/water_coupling.h>
+#include <voussoir/water/water_size.h>
 
 #include <algorithm>
 #include <cmath>

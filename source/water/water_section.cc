@@ -2,6 +2,7 @@
 #include <voussoir/base/error.h>
 #include <voussoir/base/number_text.h>
 #include <voussoir/water/water_section.h>
+#include <voussoir/water/water_size.h>
 
 #include <algorithm>
 #include <cmath>

@@ -22,6 +22,28 @@ namespace Voussoir
   public:
     using std::runtime_error::runtime_error;
   };
+
+  /** Error of writing a file: the disk is full, a directory has the same name, or the
+   * permission is missing. */
+  class WriteError : public ComputationError
+  {
+  public:
+    using ComputationError::ComputationError;
+
+    /** Returns the error "The file FILE cannot be written: REASON" with the reason of the last failed
+     * system call (errno). */
+    static WriteError of(const std::string &file);
+  };
+
+  /** Error because a factor exceeds the integers of CHOLMOD. */
+  struct FactorTooLarge : ComputationError
+  {
+    explicit FactorTooLarge(const std::string &body = "A monolith")
+        : ComputationError(body + " is too large for the solver: its factor has more than 2^31 entries. "
+                                  "Divide it by joints, or use fewer elements in it.")
+    {
+    }
+  };
 } // namespace Voussoir
 
 #endif

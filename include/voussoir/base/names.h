@@ -2,8 +2,6 @@
 #ifndef voussoir_names_h
 #define voussoir_names_h
 
-#include <voussoir/base/error.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <string>
@@ -46,6 +44,9 @@ namespace Voussoir
                        { return includes(names, part) || std::count(names.begin(), names.end(), part) > 0; });
   }
 
+  /** Throws InputError with a message. */
+  [[noreturn]] void refuse_name(const std::string &message);
+
   // Below, the rows of a table are structs with the members name and doc (a short description).
 
   /** Returns the names of a table in the order of the rows, such as "rigid|rock|massless", a selection of
@@ -74,7 +75,7 @@ namespace Voussoir
     for (const Row &row : rows)
       if (name == row.name)
         return row;
-    throw InputError("There " + is_no + " \"" + name + "\". " + they_are + " " + names_of(rows) + ".");
+    refuse_name("There " + is_no + " \"" + name + "\". " + they_are + " " + names_of(rows) + ".");
   }
 
   /** Returns the names of all values as a selection of dealii::ParameterHandler, such as "mean-force|none". */
@@ -98,7 +99,7 @@ namespace Voussoir
     for (const auto &entry : names)
       if (name == entry.first)
         return entry.second;
-    throw InputError("There " + is_no + " \"" + name + "\". The " + kind + " are: " + selection(names) + ".");
+    refuse_name("There " + is_no + " \"" + name + "\". The " + kind + " are: " + selection(names) + ".");
   }
 } // namespace Voussoir
 

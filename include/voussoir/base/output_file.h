@@ -2,25 +2,11 @@
 #ifndef voussoir_output_file_h
 #define voussoir_output_file_h
 
-#include <voussoir/base/error.h>
-
 #include <fstream>
 #include <string>
 
 namespace Voussoir
 {
-  /** Error of writing a file: the disk is full, a directory has the same name, or the
-   * permission is missing. */
-  class WriteError : public ComputationError
-  {
-  public:
-    using ComputationError::ComputationError;
-
-    /** Returns the error "The file FILE cannot be written: REASON" with the reason of the last failed
-     * system call (errno). */
-    static WriteError of(const std::string &file);
-  };
-
   /** File opened for writing. The constructor throws WriteError if the file cannot be opened. */
   class OutputFile : public std::ofstream
   {

@@ -2,7 +2,6 @@
 #ifndef voussoir_body_factor_h
 #define voussoir_body_factor_h
 
-#include <voussoir/base/error.h>
 #include <voussoir/solid/structure.h>
 
 #include <memory>
@@ -27,16 +26,6 @@ namespace Voussoir
     double damped = 0.; ///< factor of the matrix K_c of Damping, Body::damped [-]
 
     bool has_mean_forces() const { return share != 1.; } ///< true if f are means over the step
-  };
-
-  /** Error because a factor exceeds the integers of CHOLMOD. */
-  struct FactorTooLarge : ComputationError
-  {
-    explicit FactorTooLarge(const std::string &body = "A monolith")
-        : ComputationError(body + " is too large for the solver: its factor has more than 2^31 entries. "
-                                  "Divide it by joints, or use fewer elements in it.")
-    {
-    }
   };
 
   /** Operator A of a body, see StepOperator, and its Cholesky factor L by CHOLMOD. The interface is in natural

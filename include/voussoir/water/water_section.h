@@ -2,7 +2,6 @@
 #ifndef voussoir_water_section_h
 #define voussoir_water_section_h
 
-#include <voussoir/base/error.h>
 #include <voussoir/base/tensor3.h>
 
 #include <array>
@@ -11,12 +10,6 @@
 namespace Voussoir
 {
   using Point2 = std::array<double, 2>; ///< y, z [m]
-
-  /** Water elements that are too large for the section. */
-  struct CoarseWater : InputError
-  {
-    using InputError::InputError;
-  };
 
   /** Quadrilateral of the wet face, as seen along the river. */
   struct WetQuad

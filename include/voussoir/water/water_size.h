@@ -2,8 +2,16 @@
 #ifndef voussoir_water_size_h
 #define voussoir_water_size_h
 
+#include <voussoir/base/error.h>
+
 namespace Voussoir
 {
+  /** Water elements that are too large for the section. */
+  struct CoarseWater : InputError
+  {
+    using InputError::InputError;
+  };
+
   constexpr double bytes_per_water_node = 850.; ///< measured, see tests/program_memory.py
   constexpr double largest_mass_factor = 1.3;   ///< of the water, for time steps above the critical one [-]
 
