@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the reference pages of doc/generated: columns.md from scripts/columns.txt, and with the program entries.md and commands.md.
+"""Writes the reference pages of doc/generated: columns.md from scripts/columns.txt, messages.md from the sources, and with the program
+entries.md and commands.md.
 
     scripts/reference.py [--voussoir build/voussoir] [--check]
 
---check writes nothing, and ends with status 1 if a page is not up to date. Without --voussoir it checks columns.md only.
+--check writes nothing, and ends with status 1 if a page is not up to date. Without --voussoir it checks columns.md and messages.md only.
 """
 
 import argparse
@@ -80,6 +81,39 @@ def commands_page(program):
     return NOTE + "# Commands\n\n" + "".join(f"    {line}".rstrip() + "\n" for line in output(program, "--help").splitlines())
 
 
+def arguments(text, function):
+    """The code between the parentheses of each call of a function that a pattern describes."""
+    for match in re.finditer(function + r"\(", text):
+        depth, end = 1, match.end()
+        for token in re.finditer(r'"(?:[^"\\]|\\.)*"|[()]', text[end:]):
+            depth += {"(": 1, ")": -1}.get(token[0], 0)
+            if not depth:
+                yield text[end:end + token.start()]
+                break
+
+
+def message(code):
+    """The text of a C++ expression: its string literals, with an ellipsis for everything between them."""
+    parts = re.findall(r'"((?:[^"\\]|\\.)*)"|([^"]+)', code)
+    text = "".join("…" if other.strip(" \n+") else literal for literal, other in parts)
+    return re.sub("…+", "…", text.replace('\\"', '"').replace("\\n", " "))
+
+
+def messages_page():
+    """doc/generated/messages.md: the errors of each directory of the sources."""
+    text = NOTE + """# Errors
+
+These are the messages of errors in the sources, by directory; … stands for names and numbers.
+[Messages](../messages.md) explains the kinds of messages.
+"""
+    for directory in sorted(path for path in (ROOT / "source").iterdir() if path.is_dir()):
+        found = {message(code) for file in directory.glob("*.cc") for code in arguments(
+            file.read_text(encoding="utf-8"), r"(?:throw (?:InputError|ComputationError|CoarseWater)|\bfail)")}
+        rows = sorted((one for one in found if len(one.split()) > 4), key=lambda one: one.strip("… \"").lower())
+        text += f"\n## {directory.name}\n\n" + "".join(f"- {escape(one)}\n" for one in rows) if rows else ""
+    return text
+
+
 def meaning(entry):
     """The text of an entry, with a line for each choice and links to the pages that it names."""
     text = re.sub(r"doc/(\w+)\.md", r"[\1](../\1.md)", escape(entry["documentation"]))
@@ -98,8 +132,8 @@ def output(program, *words):
 
 
 def pages(program):
-    """{path: text} of the pages; without a program that of the columns."""
-    made = {"columns.md": columns_page()}
+    """{path: text} of the pages; without a program those of columns and messages."""
+    made = {"columns.md": columns_page(), "messages.md": messages_page()}
     if program:
         made |= {"entries.md": entries_page(program), "commands.md": commands_page(program)}
     return {PAGES / name: text for name, text in made.items()}
