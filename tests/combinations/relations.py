@@ -268,6 +268,8 @@ def mirrored(case):
         if "_acceleration" not in column and re.match(r"(opening|slip)_\w+_\d+$", column):
             number = int(column.rsplit("_", 1)[1])
             return (f"{column.rsplit('_', 1)[0]}_{contraction + 1 - number}", sign) if number <= contraction and joints == contraction else (None, 1)
+        if at_joint and column.startswith("mid_"):  # the probe is in the monolith with the smaller number
+            return None, 1
         if at_joint and column.startswith("crest_"):
             column = column.replace("crest_left_", "crest_") if column.startswith("crest_left_") else column.replace("crest_", "crest_left_")
         return column, sign
