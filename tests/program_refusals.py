@@ -86,7 +86,8 @@ def gaps():
         ("Joints/Initial gaps=4: 1 mm", ("Initial gaps", "joint 4", "2 joints")),
         ("Joints/Model=KSM", "Joints/Keys/Clearances=1: -1 mm", ("Keys/Clearances", "-1 mm")),
         ("Joints/Model=KSM", "Joints/Keys/Clearances=4: 1 mm", ("Keys/Clearances", "joint 4", "2 joints")),
-        ("Joints/Initial gaps=1: 1 mm", "Joints/Overrides=1: tied", ("gap of joint 1", "tied"))))
+        ("Joints/Initial gaps=1: 1 mm", "Joints/Overrides=1: tied", ("gap of joint 1", "tied")),
+        ("Mesh/Arch210/Base joint=true", "Joints/Overrides=base: KSM", ("KSM", "base 1", "base: FJA"))))
     refuse(["scene.prm", "--validate"], (("Statics/Stages=cut 1 by 0", ("cut 1 by 0", "cut J by W")),))
 
 
