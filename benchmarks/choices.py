@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Error against cost of the choices that a scene has, each against the best of its kind.
 
-    benchmarks/choices.py [GROUP...] [--seconds 3] [--seed N] [--set ENTRY=VALUE] [--voussoir PROGRAM]
+    benchmarks/choices.py [GROUP...] [--rows LABEL...] [--seconds 3] [--seed N] [--set ENTRY=VALUE] [--voussoir PROGRAM]
 
 Groups: quickstart, joints28 (mesh and time step together), steps (time step and rule of impact), elements, box (its sizes), box_static,
 rock28_cells, rock_layers. On rock the motion ends in 0.2 s, and half a second of rest follows: what rises from the bottom is all at the
@@ -137,6 +137,7 @@ def error(value, reference):
 
 def study(name, options):
     scene, common, rows, best, what = groups()[name]
+    rows = [row for row in rows if not options.rows or str(row[1]) in options.rows]
     common = {**common, **dict(text.split("=", 1) for text in options.set)}
     with tempfile.TemporaryDirectory() as directory:
         runs = Runs(options, scene, common, directory)
@@ -184,6 +185,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     add_program_argument(parser)
     parser.add_argument("groups", nargs="*", choices=list(groups()) + [[]])
+    parser.add_argument("--rows", nargs="+", metavar="LABEL", help="only these, such as \"all 420 m\"")
     parser.add_argument("--seconds", type=float, default=3)
     parser.add_argument("--seed", type=int, help="of the motion, instead of the scene's")
     parser.add_argument("--set", action="append", default=[], metavar="ENTRY=VALUE", help="for all runs")

@@ -4,7 +4,7 @@
 
     scripts/coverage.py DIRECTORY [--missed FILE]
 
-Prints a Markdown table with a row for each room: lines with code, lines that a test reached, and their share. --missed writes the
+Prints a Markdown table with a row for each folder: lines with code, lines that a test reached, and their share. --missed writes the
 other lines to a file, as "file:line". scripts/full.sh makes the build.
 """
 
@@ -60,7 +60,7 @@ def table_of(total):
             rooms[name][0] += 1
             rooms[name][1] += reached
     order = [*sorted(name for name in rooms if name != "all"), "all"]
-    return ["| room | lines | reached | share |", "|---|---|---|---|",
+    return ["| folder | lines | reached | share |", "|---|---|---|---|",
             *(f"| {name} | {rooms[name][0]} | {rooms[name][1]} | {100. * rooms[name][1] / rooms[name][0]:.1f} % |" for name in order)]
 
 

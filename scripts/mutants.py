@@ -89,7 +89,7 @@ def read_list(path):
         else:
             fields = line.split(" | ")
             if len(fields) != 4:
-                raise Misfit(f"{path.name}, line {number}: expected name | room | file | tests")
+                raise Misfit(f"{path.name}, line {number}: expected name | group | file | tests")
             name, room, file, tests = (f.strip() for f in fields)
             mutants.append({"name": name, "room": room, "file": file, "tests": tests.split("|"), "meaning": "",
                             "edits": []})
@@ -415,7 +415,7 @@ def prepare(mutants, options, directory, overlay):
 
 def judge(mutants, count, options, directory, overlay):
     """Runs the tests against that many that compile; prints the table. Its lines, and the survivors."""
-    lines = ["| room | mutant | what it means | killed by |", "|---|---|---|---|"]
+    lines = ["| group | mutant | what it means | killed by |", "|---|---|---|---|"]
     print("\n".join(lines), flush=True)
     survivors, sound = [], {}
     for mutant in mutants:

@@ -44,7 +44,7 @@ namespace Voussoir
     };
 
     /** The same joint with the equations (3b) and (4b) of the paper. The angle of slip is that of the force,
-     * which is undefined for an open or unloaded pair. For comparison only; see doc/method.md. */
+     * which is undefined for an open or unloaded pair. For comparison only; see doc/failures.md. */
     class FJAPaper : public FJA
     {
     public:

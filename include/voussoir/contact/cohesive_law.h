@@ -24,8 +24,8 @@ namespace Voussoir
    * step, the softening stress is a mean as well. The work of softening then equals the fracture energy
    * up to round-off.
    *
-   * Elements longer than E G_f/f_t^2 store more energy than the crack dissipates; the stress then drops
-   * suddenly. The law does not support edges where planes of a joint meet.
+   * Two elements at the joint that are longer than E G_f/f_t^2 store more energy than the crack dissipates; the
+   * stress then drops suddenly. The law does not support edges where planes of a joint meet.
    *
    * Throws InputError for a negative strength or fracture energy, and for equations
    * other than "alart-curnier". */

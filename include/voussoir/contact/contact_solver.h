@@ -27,7 +27,7 @@ namespace Voussoir
    * diagonal of W.
    * 1. |error|/max(|force|, |b|/w, |gap|/w) <= tolerance. For Coulomb's law this is the full relative
    *    natural-map error of Siconos on the problem scaled to mean diagonal 1.
-   * 2. |error|/(|b|/w) <= tolerance, or |error| <= 4 eps |W| |force|/w, which is the round-off of W force. A
+   * 2. |error|/(|b|/w) <= tolerance, or |error| <= 4 eps |W|/w min(|force|, 100 |b|/w), the round-off of W force. A
    *    problem without a solution, whose forces grow without bound, therefore does not converge. */
   class ContactSolver
   {

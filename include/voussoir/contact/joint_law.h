@@ -18,13 +18,15 @@ namespace Voussoir
    * the conditions of the joint law are satisfied. */
   struct PairEquations
   {
-    Vector3   residual; ///< residual [N]
-    Matrix3   d_force;  ///< derivative of the residual by the force [-]
-    Matrix3   d_gap;    ///< derivative of the residual by the gap [N/m]
-    PairState state;    ///< contact state that the equations correspond to
+    Vector3 residual; ///< residual [N]
+    Matrix3 d_force;  ///< derivative of the residual by the force [-]
+    Matrix3 d_gap;    ///< derivative of the residual by the gap [N/m]
+    /** Contact state that the equations correspond to. Open pairs that are not tied have no velocity correction; for
+     * slip see Impact. */
+    PairState state;
 
     /** Active surfaces, which carry force: one bit per surface. Bit 0 is the face of the joint; a law defines
-     * bits 1 to 7, such as the flanks of a key. 0: the pair is open. */
+     * bits 1 to 7, such as the flanks of a key; with an adhesion bit 2 belongs to ElasticLaw. 0: the pair is open. */
     unsigned char active;
   };
 
@@ -101,7 +103,8 @@ namespace Voussoir
     virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const = 0;
 
     /** Returns the impulse that the law allows in an impact [N s]. The velocity of side 2 relative to side 1
-     * after the impact is H impulse + v. Called for closed pairs. If is_tangentially_tied() is true, it is also
+     * after the impact is H impulse + v. Called for closed pairs; the impulse never adds energy, also with @p active
+     * 0. If is_tangentially_tied() is true, it is also
      * called for open pairs, with @p active 0.
      * @param H inverse mass of the pair [1/kg]
      * @param v velocity of side 2 relative to side 1 without the impulse [m/s]

@@ -28,7 +28,7 @@ namespace Voussoir
    * table. */
   bool joint_law_reads(const std::string &name, const std::string &entry);
 
-  /** Returns the names of the laws that declare the entry, such as "FJA, KSM". Empty if there is none. */
+  /** Returns the names of the laws that read the entry, such as "FJA, KSM". Empty if there is none. */
   std::string joint_laws_with(const std::string &entry);
 
   /** Returns a warning about parameters of the law that are plausible alone, but not in combination. Empty if

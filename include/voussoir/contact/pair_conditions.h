@@ -7,7 +7,7 @@
 namespace Voussoir
 {
   // Components of joint laws: the equations of single conditions and exact solutions of one pair. Equation
-  // numbers refer to the paper of 2008.
+  // numbers refer to the paper of 2008. Units: forces [N], openings and slips [m], rho [N/m], friction [-].
 
   /** Computes the normal condition in the form of Alart and Curnier, equation (2b): force_n = max(0, force_n
    * - rho gap_n). Returns whether the pair is closed. */

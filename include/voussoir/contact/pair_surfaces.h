@@ -172,7 +172,7 @@ namespace Voussoir
     std::vector<Secondary>      other;
     double                      rho = 0.;      ///< scaling factor [N/m]
     double                      softest = 0.;  ///< smallest scaling factor of a surface [N/m]
-    double                      own_size = 0.; ///< face axes = pair axes?
+    double                      own_size = 0.; ///< largest clearance, or compression by a reference force [m]
     bool                        regularised = false;
     bool                        has_plain_face = false; ///< the axes of the face are those of the pair
   };

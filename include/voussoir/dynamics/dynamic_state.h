@@ -7,7 +7,7 @@
 namespace Voussoir
 {
   /** Terms of the energy balance [J]. The kinetic energies and the strain energy are current values. The
-   * joint energies are those of PairLaws::joint_energy(). The other terms are works since Newmark::start(). */
+   * joint energies are those of PairLaws::joint_energy(). The other terms are works since Integrator::start(). */
   struct Energy
   {
     double kinetic = 0.;    ///< kinetic energy of the concrete
@@ -58,7 +58,7 @@ namespace Voussoir
     Unknowns      memory;     ///< history variables of all pairs; at first JointLaws::initial_memory()
     Carried       carried;    ///< see StepEquation
     DampingMemory relaxation; ///< of the concrete; empty without mechanisms of Damping
-    Vector3       base_velocity = {{0., 0., 0.}}; ///< velocity of the base, see Newmark::advance() [m/s]
+    Vector3       base_velocity = {{0., 0., 0.}}; ///< velocity of the base, see Integrator::advance() [m/s]
     Energy        energy;
   };
 } // namespace Voussoir

@@ -90,12 +90,13 @@ namespace Voussoir
 
     const Structure &structure;
     const JointLaws &laws;
-    Unknowns         reference, impulse;
+    Unknowns         reference; ///< see start() [m]
+    Unknowns         impulse;   ///< see impulses() [N s]
     DynamicState     now;
     Unknowns         elastic_force;       ///< constant part of the loads, see start() [N]
     double           elastic_energy = 0.; ///< half of its product with the initial displacement [J]
-    Energy           first;               ///< energies at the start
-    double           largest = 0.;
+    Energy           first;               ///< energies at the start [J]
+    double           largest = 0.;        ///< see largest_energy() [J]
   };
 } // namespace Voussoir
 

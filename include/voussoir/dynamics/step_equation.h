@@ -12,7 +12,7 @@ namespace Voussoir
   {
     double          dt;            ///< length of the step, full or reduced [s]
     const Unknowns &load;          ///< nodal loads at the end, three values per free node [N]
-    const Vector3  &base_velocity; ///< velocity of the base at the end, see Newmark::advance() [m/s]
+    const Vector3  &base_velocity; ///< velocity of the base at the end, see Integrator::advance() [m/s]
   };
 
   /** Returns the operator A of a step by the trapezoidal rule with damping.

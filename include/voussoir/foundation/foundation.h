@@ -183,7 +183,7 @@ namespace Voussoir
 
     /** Returns the mean predicted velocity of the base nodes at the end of the time step: components x, y, z
      * in the axes of the mesh [m/s]. It is the absolute velocity if displacements are absolute, and zero if
-     * they are relative to the ground (moves_base()). Newmark::advance() requires it for mass-proportional
+     * they are relative to the ground (moves_base()). Integrator::advance() requires it for mass-proportional
      * damping. Must be called after Neighbour::advance(). */
     virtual Vector3 base_velocity() const { return {}; }
   };
@@ -286,7 +286,7 @@ namespace Voussoir
    *  3. static state: static_springs(), static_base(), and solve_static() for each static step, again
    *     while water enters joints,
    *  4. start of the dynamic analysis: start(), support(), monitor(),
-   *  5. time step: advance(), base_velocity(), Newmark::advance(), update_from_dam(),
+   *  5. time step: advance(), base_velocity(), Integrator::advance(), update_from_dam(),
    *  6. after the time step: energies(), NeighbourMonitor,
    *  7. checkpoint: gather_on_root(), state(); end of the run: add_to_summary(), report_balance(). */
   class Foundation : public FoundationSetup, public BaseSupport, public Neighbour
