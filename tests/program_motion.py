@@ -215,6 +215,7 @@ def corrections():
         expect(sum(p * q for p, q in zip(original, a)) > .5 * mine * its, f"{name}: another motion")
         first = float(re.search("multiplied by ([0-9.]+)", note[0])[1])
         expect(all(abs(a[k] - first * original[k]) < .01 * abs(a[k]) + 1e-12 for k in (0, -1)), f"{name}: additions at the ends: {a[0]}, {a[-1]}")
+        expect(all(abs(a[k] - first * original[k]) < .5 * max(map(abs, a)) for k in range(50)), f"{name}: a blow in the first half second")
         expect("duration D5-95" in note[0] and "peak displacement" in note[0], note[0])
     expect(all(row[3] == 0 for row in rows), "a component without record is matched")
     for entries, parts in {("Match=true", "Target spectrum="): ("Motion/Match", "Motion/Target spectrum"),

@@ -424,7 +424,7 @@ def bad_input():
                              (["--set", "Motion/Source=none"], ("no motion", "Motion/Source")),
                              (["--output", "scene.prm"], ("scene.prm", "--output")),
                              (["--set", "Joints/Friction=-1"], ("Joints/Friction",)),
-                             (["--set", "Contact/Tolerance=1e-15", "--set", "Contact/Maximum iterations=1", "--set", "Contact/Method=proximal"],
+                             (["--set", "Contact/Tolerance=1e-15", "--set", "Contact/Maximum iterations=1"],
                               ("scene.prm failed", "static"))):
         output = [] if "--output" in arguments else ["--output", "out"]
         _, messages = needs("--seconds", "1", *LONG, *arguments, *output, "--", "scene.prm", status=1 if "static" in parts else 2)

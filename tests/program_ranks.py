@@ -86,7 +86,6 @@ def rigid():
     any_number("tied", (2,), *SHORT, *settings("Joints/Model=tied"))
     any_number("double", (2,), *SHORT, *five, *settings("Dynamics/Factors=double"))
     any_number("water", (2,), *SHORT, *WATER)
-    any_number("sweeps", (2,), *SHORT, *five, *settings("Contact/Method=sweeps", "Contact/Maximum iterations=2000"))
     any_number("massless", (2,), *SHORT, *settings("Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true",
                                                    "Mesh/Arch210/Rock/Element size=60", "Concrete/Sustained modulus=14e9",
                                                    "Foundation/Sustained modulus=9e9"))

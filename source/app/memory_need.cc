@@ -6,7 +6,6 @@
 #include <voussoir/dam/dam.h>
 #include <voussoir/joints/body_factor.h>
 #include <voussoir/mesh/mesh_joints.h>
-#include <voussoir/mesh/mesh_source.h>
 #include <voussoir/water/water_size.h>
 
 #include <omp.h>

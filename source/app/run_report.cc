@@ -5,7 +5,6 @@
 #include <voussoir/dam/dam_geometry.h>
 #include <voussoir/dam/rock_wedge.h>
 #include <voussoir/dam/static_path.h>
-#include <voussoir/motion/motion.h>
 #include <voussoir/motion/motion_report.h>
 #include <voussoir/output/figures.h>
 #include <voussoir/output/spectrum_table.h>

@@ -102,7 +102,8 @@ namespace Voussoir
     const std::map<std::string, std::string> removed = {
         {"Dynamics/Error estimate",
          "was removed in version 0.6.0, which does not change the results. Remove the entry, and use `voussoir "
-         "accuracy` to estimate the error of the time step."}};
+         "accuracy` to estimate the error of the time step."},
+        {"Contact/Method", "was removed in version 0.6.0: the solver chooses its method. Remove the entry."}};
 
     /** Returns the declaration of an entry. Throws InputError, with the most similar one, for an unknown
      * entry name. */

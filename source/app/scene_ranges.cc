@@ -104,11 +104,20 @@ namespace Voussoir
   {
     using NamedValues = std::vector<std::pair<std::string, double>>; // text after the entry, value
 
-    NamedValues gaps(const Scene &scene)
+    /** Returns the lengths of a list of joints. */
+    NamedValues lengths(const std::map<std::string, std::string> &of_joints, const char *entry)
     {
       NamedValues values;
-      for (const auto &[joint, gap] : scene.joints.gaps)
-        values.emplace_back(joint, number_in_unit(gap, "m", "Joints/Initial gaps"));
+      for (const auto &[joint, length] : of_joints)
+        values.emplace_back(joint, number_in_unit(length, "m", entry));
+      return values;
+    }
+
+    NamedValues initial_velocities(const Scene &scene)
+    {
+      NamedValues values;
+      for (const auto &[block, velocity] : scene.initial_velocities())
+        values.emplace_back("block " + std::to_string(block), norm(velocity));
       return values;
     }
 
@@ -163,7 +172,15 @@ namespace Voussoir
       bool in_file = false;                 ///< see UsedValue
     };
     const std::vector<ListedNumbers> listed_numbers = {
-        {"Joints/Initial gaps", "m", {1e-5, .05, true}, gaps},
+        {"Joints/Initial gaps",
+         "m",
+         {1e-5, .05, true},
+         [](const Scene &scene) { return lengths(scene.joints.gaps, "Joints/Initial gaps"); }},
+        {"Joints/Keys/Clearances",
+         "m",
+         {1e-5, .05, true},
+         [](const Scene &scene) { return lengths(scene.joints.clearances, "Joints/Keys/Clearances"); }},
+        {"Dynamics/Initial velocity", "m/s", {1e-4, 10., true}, initial_velocities},
         {"Statics/Stages", "m", {1e-5, .2}, widths_of_cuts},
         {"Statics/Stages", "Pa", {1e4, 5e6, true}, pressures_of_grout},
         {"Loads/Crest line", "N/m", {1e3, 5e6, true}, crest_line},

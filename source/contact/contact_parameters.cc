@@ -10,7 +10,6 @@ namespace Voussoir
   {
     using dealii::Patterns::Double;
     using dealii::Patterns::Integer;
-    using dealii::Patterns::Selection;
     prm.enter_subsection("Contact");
     prm.add_parameter("Tolerance", tolerance,
                       "Largest relative residual of the joint conditions in a converged step [-].",
@@ -19,11 +18,6 @@ namespace Voussoir
                       "Largest number of Newton steps of a contact problem [-].", Integer(1));
     prm.add_parameter("Sweeps", sweeps, "Number of Gauss-Seidel iterations before the first Newton step [-].",
                       Integer(0));
-    prm.add_parameter(
-        "Method", method,
-        "Contact solver. newton: Newton's method; if it stalls, Gauss-Seidel iterations and then the "
-        "proximal point method follow. proximal: proximal point method. sweeps: Gauss-Seidel iterations.",
-        Selection(method_names()));
     prm.add_parameter(
         "Write problems", write_problems,
         "true: write the contact problems to OUTPUT/contact, with the initial guess. Requires the "
@@ -38,10 +32,5 @@ namespace Voussoir
     if (const double other = 100. * tolerance; other <= 1e-6)
       choices.add("numerics", "tolerance of the joints " + number_text(other), "Contact/Tolerance", other,
                   true);
-  }
-
-  std::string ContactParameters::method_names()
-  {
-    return "newton|proximal|sweeps";
   }
 } // namespace Voussoir

@@ -22,6 +22,9 @@ namespace Voussoir
         throw InputError(entry + "the file " + file +
                          " cannot be read. Its path is relative to the directory of the scene file.");
       const NumberTable table = read_number_table(read_record_text(file));
+      for (const Heading &heading : table.headings)
+        if (!heading.unit.empty() && heading.unit != "s" && heading.unit != "[N]" && heading.unit != "(N)")
+          throw InputError(entry + file + ": write \"" + heading.text + "\" as time [s] or force [N].");
       for (std::size_t i = 0; i < table.rows.size(); ++i)
       {
         const std::vector<double> &row = table.rows[i];

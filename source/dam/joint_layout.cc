@@ -130,7 +130,12 @@ namespace Voussoir
       for (std::size_t j = 0; j < models.size() && !structure.clusters.empty(); ++j)
       {
         LawParameters parameters = scene.joints.law(scene.concrete.young);
-        const double  added = scene.concrete.young / (thickness * std::sqrt(area[j] / std::max(1u, n[j])));
+        for (const auto &[entry, value] : {std::pair("Joints/Normal stiffness", &parameters.normal_stiffness),
+                                           {"Joints/Tangential stiffness", &parameters.tangential_stiffness},
+                                           {"Joints/Adhesion", &parameters.adhesion}})
+          if (!joint_law_reads(models[j], entry))
+            *value = 0.;
+        const double added = scene.concrete.young / (thickness * std::sqrt(area[j] / std::max(1u, n[j])));
         for (double *stiffness : {&parameters.normal_stiffness, &parameters.tangential_stiffness})
           *stiffness = n[j] == 0          ? *stiffness
                        : *stiffness == 0. ? added

@@ -110,8 +110,10 @@ namespace Voussoir
     unsigned int source = p;
     for (unsigned int q = 0; q < wet.size(); ++q)
       if (structure.pairs[q].joint == pair.joint && (wet[q] || at_upstream[q]))
-        if (const double d = norm(structure.pairs[q].place - pair.place); d < distance)
-          distance = d, source = q;
+        if (const double d = norm(structure.pairs[q].place - pair.place);
+            d < (1. - 1e-9) * distance ||
+            (d < (1. + 1e-9) * distance && structure.pairs[q].place[2] < structure.pairs[source].place[2]))
+          distance = d, source = q; // the lower one of two at equal distances
     const double toe = at_toe(pair.place[2]), full = pressure(structure.pairs[source].place[2]);
     if (place[source] >= 1.)
       return 0.;

@@ -85,7 +85,7 @@ namespace Voussoir
       text.precision(2);
       text << "nodes of cohesive joints are up to " << distance << " m apart. The limit is " << required
            << " m (Young's modulus times Joints/Fracture energy, divided by the square of Joints/Strength). "
-              "Above it, the cracked pairs depend on the number of increments and on the time step. ";
+              "Above it, the cracked pairs depend on increments, time step and numbers of the joints. ";
       if (required > 0.)
         text << "Refine the mesh along these joints to " << required << " m, or compare several "
              << "Statics/Water increments.";

@@ -442,10 +442,14 @@ namespace Voussoir
     if (!has_single_factors() && !is_explicit())
       choices.add("numerics", "factors in single precision", {{"Dynamics/Factors", "single"}}, true);
     contact.add_choices(choices);
+    const auto has_stage = [&](const char *kind) { return statics.stages.find(kind) != std::string::npos; };
     const auto refused = [&](const ModelChoice &choice) // by check()
     {
       const bool moves = !motion.abutments.empty(); // requires massless rock
-      return ((moves || !initial_velocity.empty()) && choice.entries.count("Foundation/Model") > 0) ||
+      return (has_stage("fill") && choice.name == "empty reservoir") ||
+             (has_stage("grout") && choice.name == "self-weight monolithic") ||
+             ((has_stage("grout") || has_stage("cut")) && choice.name == "tied") ||
+             ((moves || !initial_velocity.empty()) && choice.entries.count("Foundation/Model") > 0) ||
              (hexes.water && reservoir.is_meshed() && choice.entries.count("Reservoir/Water level") > 0) ||
              (reservoir.is_acoustic() && choice.name == "twice the time step");
     };

@@ -487,12 +487,9 @@ namespace Voussoir
           message
               << "The law of this joint has keys, which may not have a unique state between blocks that move. Set "
                  "it to FJA in \"Joints/Overrides\".";
-        else if (parameters.method != "newton")
-          message << "Set \"Contact/Method\" to newton.";
         else if (result.iterations == 0 || share < 1e3) // near the round-off, or no step is possible
           message << "More increments or iterations will not help. Set \"Contact/Tolerance\" to "
-                  << dam.scene.contact.tolerance * std::pow(10., std::ceil(std::log10(share)))
-                  << ", or \"Contact/Method\" to proximal.";
+                  << dam.scene.contact.tolerance * std::pow(10., std::ceil(std::log10(share))) << ".";
         else
           message << (path.is_weight_alone(stage)    ? "Bond the base or lift joints (\"Joints/Overrides\")"
                       : path.depends_on_increments() ? "The increments were halved already. Divide the stage"

@@ -6,7 +6,6 @@
 #include <voussoir/base/parallel.h>
 #include <voussoir/contact/elastic_law.h>
 #include <voussoir/contact/pair_conditions.h>
-#include <voussoir/joints/pairs.h>
 #include <voussoir/mesh/mesh.h>
 
 #include <algorithm>

@@ -2,6 +2,9 @@
 #include <voussoir/dynamics/pair_clusters.h>
 #include <voussoir/joints/pairs.h>
 
+#include <algorithm>
+#include <cmath>
+
 namespace Voussoir
 {
   PairClusters::PairClusters(const Structure &structure)
@@ -11,8 +14,13 @@ namespace Voussoir
     for (const Pair &pair : structure.pairs)
       pair_inverse.push_back(between(pair, pair));
     std::vector<bool> shares(structure.pairs.size(), false);
-    for (const auto &pairs : clusters_of(structure.pairs))
+    for (auto pairs : clusters_of(structure.pairs))
     {
+      // Iterations depend on the sequence; sorted by inclination, that of the mirror image is the same.
+      const auto slope = [&](const unsigned int p)
+      { return std::lround(1e6 * std::abs(structure.pairs[p].frame[0][2])); };
+      std::stable_sort(pairs.begin(), pairs.end(),
+                       [&](const unsigned int p, const unsigned int q) { return slope(p) < slope(q); });
       clusters.push_back({pairs, {}});
       for (const unsigned int p : pairs)
       {

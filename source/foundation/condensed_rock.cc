@@ -77,7 +77,7 @@ namespace Voussoir
             "mesh " + source +
             ": the stiffness matrix of the rock is not positive definite, or the rock is not in one piece. "
             "Connect all parts of the rock to each other and to the surface \"artificial boundary\", and "
-            "improve distorted rock elements (`voussoir mesh` prints their quality).");
+            "improve distorted rock elements (`voussoir mesh` prints their quality; generated rock: \"Rock/Element size\").");
       }
     }
   } // namespace
@@ -132,8 +132,8 @@ namespace Voussoir
       throw ComputationError(
           "The massless rock does not support the dam: its stiffness at the " +
           std::to_string(base_nodes.size()) +
-          " base nodes is not positive definite. Improve distorted rock elements below the dam; `voussoir "
-          "mesh` prints their quality.");
+          " base nodes is not positive definite. Improve distorted rock elements below the dam (`voussoir "
+          "mesh` prints their quality; generated rock: \"Rock/Element size\").");
     }
     std::vector<double> C(std::size_t(n()) * n());
     for (unsigned int i = 0; i < n(); ++i)

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <cassert>
 #include <new>
-#include <numeric>
 #include <string>
 
 namespace Voussoir

@@ -8,7 +8,6 @@
 #include <voussoir/solid/cell_elasticity.h>
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #ifdef _OPENMP

@@ -241,6 +241,10 @@ namespace Voussoir
       return;
     log.line("          compressible; critical time step %.3g s; mass increased by the factor %.3f",
              model->critical_step, model->mass_factor);
+    if (properties.reflection > .9 && properties.length < 6. * properties.depth && !water_mesh.of_file)
+      log.line(
+          "warning: near the first frequency of the channel its end reflects: errors of the water force reach 11 to "
+          "24 %% with two depths. Set Reservoir/Length to six depths, or Reservoir/Reflection to at most 0.9.");
     for (const double depth : depths)
     {
       const Vector3 at = point_at(depth).place;

@@ -195,7 +195,7 @@ namespace Voussoir
     rest -= reduced.mass(0.);
     std::vector<Complex>                        found;
     std::vector<std::pair<double, NaturalMode>> result; // with the damping
-    for (unsigned int k = 0; k < count; ++k)
+    for (std::size_t k = 0; k < m; ++k) // those beyond count replace modes of which two paths end in one
     {
       const Complex s = frequency_of(reduced, Lambda, rest, k);
       const bool    is_new = std::abs(s) > 0. && std::none_of(found.begin(), found.end(),
@@ -208,8 +208,10 @@ namespace Voussoir
       found.push_back(s);
       result.back().second.frequency = std::abs(s) / (2. * M_PI);
     }
+    const auto key = [](const auto &row) { return std::pair(std::isnan(row.first), row.second.frequency); };
     std::stable_sort(result.begin(), result.end(),
-                     [](const auto &a, const auto &b) { return a.second.frequency < b.second.frequency; });
+                     [&](const auto &a, const auto &b) { return key(a) < key(b); });
+    result.resize(std::min<std::size_t>(count, m));
     modes.clear();
     std::vector<double> damping;
     for (auto &[of_mode, mode] : result)

@@ -34,7 +34,7 @@ DEFAULTS = {"Motion/Source": "file"}  # others than those of the program
 # reader's view of results that are the same.
 EXCLUDED = re.compile(r"Mesh/|Reservoir/Added mass|Output/Figures|Motion/Unit")
 TIMES = {("Elements/Degree", "2"): 6, ("Foundation/Model", "massless"): 4, ("Foundation/Model", "rock"): 3, ("Mesh/GRID/Elements through", "2"): 2,
-         ("Motion/Match", "true"): 3, ("Contact/Method", "sweeps"): 6, ("Reservoir/Model", "acoustic"): 2,
+         ("Motion/Match", "true"): 3, ("Reservoir/Model", "acoustic"): 2,
          ("Reservoir/Model", "incompressible"): 2}  # of a run, relative
 COMMON = ("Joints/Overrides", "Statics/Stages", "Joints/Initial gaps")  # lists to which several factors contribute
 WATERLINE = "Reservoir/Water level"

@@ -12,23 +12,17 @@ namespace Voussoir
   /** Makes the law cohesive: a grouted or cast joint with tensile strength, which becomes FJA when the
    * bond is lost.
    *
-   * A bonded pair is tied, also under shear. It cracks when the tensile stress reaches the strength f_t. From
-   * then on the tensile stress falls linearly with the opening w, f_t (1 - w/w_c), with w_c = 2 G_f/f_t
-   * (linear softening; Hillerborg, Modeer and Petersson 1976). Unloading and reloading follow a straight line
-   * to the origin. A cracked pair has friction when it is closed, and no shear stress when it is open. The
-   * bond is lost at w = w_c, or immediately if the fracture energy G_f is 0.
+   * doc/method.md has the equations. A cracked pair has friction when it is closed, and no shear stress when it is
+   * open. The bond is lost at the opening g_c, or immediately if the fracture energy G_f is 0.
    *
-   * History variables: {0 bonded, 1 cracked, 2 lost; largest opening since it cracked [m]}. A pair that
-   * cracks, and is unloaded by other cracks in the same step before it moves, is bonded again. A pair
-   * that slipped without opening counts as opened by 1e-8 w_c. If the joint force is a mean over the
-   * step, the softening stress is a mean as well. The work of softening then equals the fracture energy
-   * up to round-off.
+   * History variables: {0 bonded, 1 cracked, 2 lost; largest opening since it cracked [m]}. A pair that cracks, and is
+   * unloaded by other cracks in the same step before it moves, is bonded again. A pair that slipped without opening
+   * counts as opened by 1e-8 g_c.
    *
-   * Two elements at the joint that are longer than E G_f/f_t^2 store more energy than the crack dissipates; the
+   * Two elements at the joint that are longer than E G_f/sigma_t^2 store more energy than the crack dissipates; the
    * stress then drops suddenly. The law does not support edges where planes of a joint meet.
    *
-   * Throws InputError for a negative strength or fracture energy, and for equations
-   * other than "alart-curnier". */
+   * Throws InputError for a negative strength or fracture energy, and for equations other than "alart-curnier". */
   std::unique_ptr<JointLaw> make_cohesive_law(const LawParameters &parameters);
 
   /** Returns the warning of joint_law_warning(). */

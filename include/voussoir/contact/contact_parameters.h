@@ -20,7 +20,7 @@ namespace Voussoir
     double       tolerance = 1e-10;    ///< relative residual at which a solution is accepted [-]
     unsigned int max_iterations = 500; ///< largest number of Newton steps of a problem [-]
     unsigned int sweeps = 4;           ///< number of Gauss-Seidel iterations before the first Newton step [-]
-    std::string  method = "newton";    ///< one of method_names(); newton includes its fallbacks
+    std::string  method = "newton";    ///< newton with its fallbacks; proximal, or sweeps (Gauss-Seidel)
     double       max_seconds = std::numeric_limits<double>::infinity(); ///< limit of CPU time per problem [s]
     bool         write_problems = false; ///< true: write problems for voussoir-contact
     unsigned int write_interval = 1;     ///< every N-th problem is written, where N is this number [-]
@@ -32,9 +32,6 @@ namespace Voussoir
 
     /** Adds another tolerance. */
     void add_choices(ModelChoices &choices) const;
-
-    /** Returns the methods as a ParameterHandler selection: newton, proximal and sweeps (Gauss-Seidel). */
-    static std::string method_names();
   };
 } // namespace Voussoir
 

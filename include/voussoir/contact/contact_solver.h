@@ -23,12 +23,8 @@ namespace Voussoir
    * contact compliance, 1e-3 of the flexibility of the pair, around the forces of the previous solution. This
    * is repeated until the forces no longer change.
    *
-   * Convergence requires two conditions, both independent of units. Norms are 2-norms; w is the mean
-   * diagonal of W.
-   * 1. |error|/max(|force|, |b|/w, |gap|/w) <= tolerance. For Coulomb's law this is the full relative
-   *    natural-map error of Siconos on the problem scaled to mean diagonal 1.
-   * 2. |error|/(|b|/w) <= tolerance, or |error| <= 4 eps |W|/w min(|force|, 100 |b|/w), the round-off of W force. A
-   *    problem without a solution, whose forces grow without bound, therefore does not converge. */
+   * doc/method.md has the convergence criterion. The error over the load may also be below the round-off of W force,
+   * 4 eps |W|/w min(|force|, 100 |b|/w), with the mean diagonal w of W. */
   class ContactSolver
   {
   public:

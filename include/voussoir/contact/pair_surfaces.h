@@ -4,7 +4,6 @@
 
 #include <voussoir/contact/joint_law.h>
 
-#include <memory>
 #include <vector>
 
 namespace Voussoir

@@ -4,6 +4,8 @@
 
 #include <voussoir/contact/pair_surfaces.h>
 
+#include <memory>
+
 namespace Voussoir
 {
   /** Law of a pair with several flat contact surfaces and Coulomb friction: shear keys (KSM), and edges of
@@ -11,10 +13,9 @@ namespace Voussoir
    * key flanks, or planes at an edge. The contact solver treats each surface separately, see PairSurfaces. The
    * functions for the entire pair serve velocity corrections and tests.
    *
-   * Coulomb's law can have two solutions: a pair stops at a flank, or slides up the flank. This requires a
-   * coefficient of friction of the face above tan(90 degrees - a + friction angle of the flank), where a is
-   * the flank angle. An example is 0.8 with frictionless flanks of 60 degrees. Keys jam if the coefficient of
-   * friction of the flanks exceeds tan a. */
+   * Coulomb's law can have two solutions: a pair stops at a flank, or slides up the flank. This requires a coefficient of
+   * friction of the face above tan(90 degrees - a + friction angle of the flank), where a is the flank angle. Keys jam if
+   * the coefficient of friction of the flanks exceeds tan a. */
   class SurfacesLaw : public JointLaw
   {
   public:

@@ -3,7 +3,6 @@
 #define voussoir_joint_laws_h
 
 #include <voussoir/contact/contact_operator.h>
-#include <voussoir/contact/law_table.h>
 #include <voussoir/solid/structure.h>
 
 namespace Voussoir

@@ -39,9 +39,7 @@ namespace Voussoir
    * - energy that enters through the artificial boundary: 3 times the energy of the incident wave and E0. The
    *   incident energy is the integral of rho c v^2 at the bottom, with half the outcrop velocity. A fixed
    *   boundary has no such bound, since resonance in the rock box is stable;
-   * - energy that the coupling of dam and rock generates: the same bound.
-   *
-   * Exponential growth exceeds the bounds within tens of steps. */
+   * - energy that the coupling of dam and rock generates: the same bound. */
   class StabilityMonitor
   {
   public:

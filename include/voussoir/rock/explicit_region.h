@@ -29,11 +29,10 @@ namespace Voussoir
    * w = (u(t + dt) - u(t)) / dt. A step needs one product with the stiffness matrix. All nodes are
    * explicit except
    * - nodes of the artificial boundary, which the boundary moves;
-   * - prescribed nodes (the base of the dam). The caller supplies their predicted motion and receives their
-   *   force on the rock elements. This is the element partition of Hughes and Liu.
+   * - prescribed nodes (the base of the dam): element partition of Hughes and Liu. The caller supplies their predicted
+   *   motion and receives their force on the rock elements.
    *
-   * Displacements are absolute, without static ones. Values per node have the components x, y, z in the axes
-   * of the mesh.
+   * Displacements are absolute, without static ones. Values per node have the components x, y, z in the axes of the mesh.
    *
    * The region is created at rest. Optional calls before the first step, in this order: set_boundary(),
    * split_up(), set_free_field(); fix(), set_prescribed() and keep_energy() in any order; start(). */

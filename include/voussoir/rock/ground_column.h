@@ -4,7 +4,6 @@
 
 #include <voussoir/rock/incident_wave.h>
 #include <voussoir/rock/rock_damping.h>
-#include <voussoir/solid/material.h>
 
 #include <vector>
 
