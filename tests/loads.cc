@@ -2,6 +2,7 @@
 // Temperature, silt, tail water, uplift and concentrated loads against closed forms.
 // Usage: loads temperature|joints|faces|nodes|combinations
 
+#include <voussoir/contact/law_table.h>
 #include <voussoir/dam/base_uplift.h>
 #include <voussoir/dam/face_distance.h>
 #include <voussoir/dam/face_pressure.h>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers that a run reports, of given forces, stresses and movements: against integrals by hand.
 
+#include <voussoir/contact/law_table.h>
 #include <voussoir/dam/scene.h>
 #include <voussoir/dynamics/newmark.h>
 #include <voussoir/joints/pairs.h>
