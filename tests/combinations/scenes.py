@@ -202,7 +202,8 @@ class Net:
 
     def read_page(self, page, share):
         """Takes the refused sets of the page, and validates one of @p share rows; the rows that are accepted."""
-        rows, accepted = re.findall(r"^\| `(.*?)` \| (.*) \|$", page.read_text(), re.M) if page.exists() else (), []
+        rows, accepted = [(row, message) for levels, message in re.findall(r"^\| `(.*?)` \| (.*) \|$", page.read_text(), re.M)
+                          for row in levels.split("`<br>`")] if page.exists() else (), []
         first = self.random.randrange(share)
         for number, (row, message) in enumerate(rows):
             levels = frozenset(tuple(part.split(" = ", 1)) for part in row.replace("...", "GRID").split("`, `"))
