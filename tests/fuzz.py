@@ -74,7 +74,6 @@ SCENES = {
 end
 subsection Contact
   set Tolerance = 1e-9
-  set Method = proximal
 end
 subsection Output
   set Probes = crown: 0 0 210; foot: 0 0 0

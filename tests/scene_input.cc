@@ -308,6 +308,10 @@ namespace
         {list("Joints", "Initial gaps = 1: 2, 2: 1 mm"),
          {"Joints/Initial gaps: 1 is 2 m: usual is 1e-05 to 0.05 m", "20 cm"}},
         {list("Joints", "Initial gaps = 1: 2 mm, 2: 0"), {}},
+        {list("Joints", "Model = KSM\nsubsection Keys\nset Clearances = 1: 2\nend"),
+         {"Joints/Keys/Clearances: 1 is 2 m: usual is 0 to 0.1 m"}},
+        {list("Dynamics", "Initial velocity = monolith 1: 0 50 0"),
+         {"Dynamics/Initial velocity: the largest velocity is 50 m/s"}},
         {list("Statics", "Stages = cut 1 by 10"), {"Statics/Stages: width of the cut of 1 is 10 m"}},
         {list("Statics", "Stages = grout 90 at 0.5, cut 1 by 10 mm"),
          {"Statics/Stages: pressure of grout 90 is 0.5 Pa: usual is 10000 to 5e+06 Pa"}},
@@ -399,6 +403,7 @@ namespace
       expect_warnings(
           {{"subsection Dynamics\nset Error estimate = " + value + "\nend\n",
             {"warnings.prm, line 2", "Dynamics/Error estimate", "was removed", "voussoir accuracy"}}});
+    expect_warnings({{"subsection Contact\nset Method = newton\nend\n", {"Contact/Method", "was removed"}}});
   }
 
   /** A law that is in no table may use any entry of the joints. */

@@ -98,7 +98,7 @@ namespace Voussoir
         throw InputError(file + ": subsection \"" + section.back() + "\" is not closed. Add an \"end\".");
     }
 
-    /** Entries that were removed without an effect on results: what to use instead. */
+    /** Removed entries, which are ignored with a warning: what to use instead. */
     const std::map<std::string, std::string> removed = {
         {"Dynamics/Error estimate",
          "was removed in version 0.6.0, which does not change the results. Remove the entry, and use `voussoir "

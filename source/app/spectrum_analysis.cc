@@ -214,12 +214,12 @@ namespace Voussoir
           throw InputError(
               "--spectrum " + choice +
               ": this file cannot be read. Give --spectrum design, or a table of period [s] and acceleration.");
-        const SpectrumTable table = read_spectrum(choice, scene.motion.unit, scene.motion.vertical_ratio,
-                                                  {SpectrumTable::rigid_period, .1});
+        const SpectrumTable table =
+            read_spectrum(choice, "", scene.motion.vertical_ratio, {SpectrumTable::rigid_period, .1});
         if (const double peak = table.at(0, 0.); !table.states_unit && peak < 1.)
           warn(
               "the peak ground acceleration of " + choice + " is " + number_text(peak) +
-              " m/s^2, because the file has no headings with a unit. If it is in another unit, add the headings \"period [s], "
+              " m/s^2, because the file has no headings with a unit. If it is in g, add the headings \"period [s], "
               "acceleration [g]\".");
         const double last = table.periods.back();
         return {choice + " (" + table.note + ")", table.damping > 0. ? table.damping : scene.damping.ratio,

@@ -135,7 +135,9 @@ namespace Voussoir
       if (law.name == present ||
           (choices.has_lift_joints && law.name == std::string("KSM"))) // no keys across lifts
         continue;
-      std::map<std::string, std::string> entries = {{"Joints/Model", law.name}, {"Joints/Overrides", ""}};
+      std::map<std::string, std::string> entries = {
+          {"Joints/Model", law.name},
+          {"Joints/Overrides", choices.has_base_joints && law.name == std::string("KSM") ? "base: FJA" : ""}};
       if (includes(law.entries, "Joints/Strength") && parameters.strength == 0.)
         entries.insert({{"Joints/Strength", "1e6"}, {"Joints/Fracture energy", "150"}});
       choices.add("joints", law.name, entries, includes_all(read, law.entries));

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 
 namespace Voussoir
 {
@@ -22,9 +23,13 @@ namespace Voussoir
         throw InputError(entry + "the file " + file +
                          " cannot be read. Its path is relative to the directory of the scene file.");
       const NumberTable table = read_number_table(read_record_text(file));
-      for (const Heading &heading : table.headings)
-        if (!heading.unit.empty() && heading.unit != "s" && heading.unit != "[N]" && heading.unit != "(N)")
-          throw InputError(entry + file + ": write \"" + heading.text + "\" as time [s] or force [N].");
+      const std::regex  others("(^|[^a-z])(kN|MN|GN|t|tf|kgf|lbf?|kips?)[)\\]]?\\s*$", std::regex::icase);
+      for (std::size_t k = 0; k < table.headings.size(); ++k)
+        if (const Heading &heading = table.headings[k];
+            k == 0 ? !heading.unit.empty() && heading.unit != "s"
+                   : heading.quantity == 't' || std::regex_search(heading.text, others))
+          throw InputError(entry + file + ": the column \"" + heading.text +
+                           "\" must be the time in s or the force in N, in this sequence. Convert the file.");
       for (std::size_t i = 0; i < table.rows.size(); ++i)
       {
         const std::vector<double> &row = table.rows[i];

@@ -176,10 +176,9 @@ namespace Voussoir
       gaps.push_back(tie_all ? 0. : scene.joints.gap_of(joint));
       const bool is_open = models.back() != "tied";
       if (joint.is_base() && models.back() == "KSM")
-        throw InputError(
-            "The model KSM of " + joint.name() +
-            " is not available: shear keys belong to contraction and lift joints. Set the model of "
-            "the base, such as \"base: FJA\", in \"Joints/Overrides\".");
+        throw InputError("Entry \"Joints/Model\" or \"Joints/Overrides\" has keys (KSM) in " + joint.name() +
+                         ", but keys belong to contraction and lift joints. Set \"base: FJA\", or another "
+                         "model, in \"Joints/Overrides\".");
       tied = tied && !is_open;
       has_open_bases = has_open_bases || (is_open && joint.is_base());
       has_open_lifts = has_open_lifts || (is_open && joint.is_lift());

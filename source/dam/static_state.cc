@@ -479,7 +479,7 @@ namespace Voussoir
                 << " The residual is " << result.residual << " of the joint forces and "
                 << result.residual_over_load << " of the load (limit " << parameters.tolerance
                 << ", from \"Contact/Tolerance\"), after " << result.iterations << " Newton steps. ";
-        const double       share = result.residual / parameters.tolerance;
+        const double share = std::max(result.residual, result.residual_over_load) / parameters.tolerance;
         const unsigned int p = result.worst_pair;
         const int          joint = p < dam.structure.pairs.size() ? int(dam.structure.pairs[p].joint) : -1;
         if (joint >= 0 && !dam.layout.joints[joint].is_contraction() &&

@@ -16,7 +16,7 @@ namespace Voussoir
     std::vector<bool> shares(structure.pairs.size(), false);
     for (auto pairs : clusters_of(structure.pairs))
     {
-      // Iterations depend on the sequence; sorted by inclination, that of the mirror image is the same.
+      // Iterations depend on the sequence. Sorted by inclination, that of most mirror images is the same.
       const auto slope = [&](const unsigned int p)
       { return std::lround(1e6 * std::abs(structure.pairs[p].frame[0][2])); };
       std::stable_sort(pairs.begin(), pairs.end(),

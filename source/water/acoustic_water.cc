@@ -241,10 +241,11 @@ namespace Voussoir
       return;
     log.line("          compressible; critical time step %.3g s; mass increased by the factor %.3f",
              model->critical_step, model->mass_factor);
-    if (properties.reflection > .9 && properties.length < 6. * properties.depth && !water_mesh.of_file)
+    if (properties.reflection > .9 && properties.length < 5.99 * properties.depth && !water_mesh.of_file)
       log.line(
-          "warning: near the first frequency of the channel its end reflects: errors of the water force reach 11 to "
-          "24 %% with two depths. Set Reservoir/Length to six depths, or Reservoir/Reflection to at most 0.9.");
+          "warning: near the first frequency of the channel its end reflects, up to 24 %% of the force. Set "
+          "Reservoir/Length to %g m, or Reservoir/Reflection to at most 0.9.",
+          std::ceil(6. * properties.depth));
     for (const double depth : depths)
     {
       const Vector3 at = point_at(depth).place;

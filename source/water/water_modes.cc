@@ -195,23 +195,22 @@ namespace Voussoir
     rest -= reduced.mass(0.);
     std::vector<Complex>                        found;
     std::vector<std::pair<double, NaturalMode>> result; // with the damping
-    for (std::size_t k = 0; k < m; ++k) // those beyond count replace modes of which two paths end in one
+    for (std::size_t k = 0; k < m && result.size() < count; ++k)
     {
       const Complex s = frequency_of(reduced, Lambda, rest, k);
-      const bool    is_new = std::abs(s) > 0. && std::none_of(found.begin(), found.end(),
-                                                              [&](const Complex other) {
-                                                             return std::abs(s - other) < 1e-4 * std::abs(s);
-                                                           });
-      result.emplace_back(is_new ? -s.real() / std::abs(s) : std::nan(""), std::move(modes[k]));
-      if (!is_new)
+      const bool    is_found = std::abs(s) > 0.;
+      if (is_found &&
+          std::any_of(found.begin(), found.end(),
+                      [&](const Complex other) { return std::abs(s - other) < 1e-4 * std::abs(s); }))
+        continue;
+      result.emplace_back(is_found ? -s.real() / std::abs(s) : std::nan(""), std::move(modes[k]));
+      if (!is_found)
         continue;
       found.push_back(s);
       result.back().second.frequency = std::abs(s) / (2. * M_PI);
     }
-    const auto key = [](const auto &row) { return std::pair(std::isnan(row.first), row.second.frequency); };
     std::stable_sort(result.begin(), result.end(),
-                     [&](const auto &a, const auto &b) { return key(a) < key(b); });
-    result.resize(std::min<std::size_t>(count, m));
+                     [](const auto &a, const auto &b) { return a.second.frequency < b.second.frequency; });
     modes.clear();
     std::vector<double> damping;
     for (auto &[of_mode, mode] : result)

@@ -489,7 +489,7 @@ RARE = (report,)  # some scenes suffice
 RELATIONS = {
     report: lambda s: True, repeated: lambda s: True, threads: lambda s: True, ranks: lambda s: s["Dynamics/Scheme"] != "explicit", printed: lambda s: True,
     without_effect: lambda s: True, exported: has_mesh_file, shuffled: lambda s: has_mesh_file(s) and is_unique(s), needs_rows: lambda s: True,
-    resumed: shakes, at_rest: lambda s: shakes(s) and is_unique(s),
+    resumed: shakes, at_rest: lambda s: shakes(s) and is_unique({**s, "Dynamics/Impact": ""}),
     mirrored: lambda s: has_mesh_file(s) and is_numbered(s) and is_unique(s) and s["limits"] != "wedges",
     # These have the directions x and y: the box of rock with mass, channel and local depth of the water, lift keys, wedges, stations.
     rotated: lambda s: has_mesh_file(s) and is_unique(s) and s["lift joints"] != "KSM" and s["Foundation/Model"] != "rock" and s["limits"] != "wedges" and

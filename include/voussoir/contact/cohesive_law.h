@@ -9,8 +9,7 @@
 
 namespace Voussoir
 {
-  /** Makes the law cohesive: a grouted or cast joint with tensile strength, which becomes FJA when the
-   * bond is lost.
+  /** Makes the law cohesive: a grouted or cast joint with tensile strength, which becomes FJA when the bond is lost.
    *
    * doc/method.md has the equations. A cracked pair has friction when it is closed, and no shear stress when it is
    * open. The bond is lost at the opening g_c, or immediately if the fracture energy G_f is 0.

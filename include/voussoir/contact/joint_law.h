@@ -62,11 +62,10 @@ namespace Voussoir
    * - force: force of side 1 on side 2 [N]; force[0] > 0 is compression.
    * - gap: displacement of side 2 relative to side 1 since grouting [m]; gap[0] >= 0 is the opening.
    * - start: gap at the start of the step [m]. The slip of the step is the tangential part of gap - start.
-   *   Friction acts against the slip: force_t = -mu force_n slip/|slip|. (P_tau of Hu, Zhang and Lin 2008 has
-   *   the opposite sign.)
+   *   Friction acts against the slip: force_t = -mu force_n slip/|slip|.
    *
-   * One constant object serves all pairs of a joint. Values that change are history variables, n_memory() per
-   * pair. The time integration stores the history variables, also for reduced time steps and checkpoints.
+   * One constant object serves all pairs of a joint. Values that change are history variables, n_memory() per pair,
+   * which the time integration stores, also for reduced time steps and checkpoints.
    *
    * Order of the calls in a time step (4: trapezoidal scheme only):
    * 1. solve(), in implicit steps also evaluate() and error(), until all pairs converge; in explicit ones evaluate() last;

@@ -8,10 +8,9 @@
 
 namespace Voussoir
 {
-  /** Law of a pair with several flat contact surfaces and Coulomb friction: shear keys (KSM), and edges of
-   * keys that are part of the mesh. The face of the joint is the first surface; the secondary surfaces are
-   * key flanks, or planes at an edge. The contact solver treats each surface separately, see PairSurfaces. The
-   * functions for the entire pair serve velocity corrections and tests.
+  /** Law of a pair with several flat contact surfaces and Coulomb friction: shear keys (KSM), and edges of meshed keys.
+   * The face of the joint is the first surface; the secondary surfaces are key flanks, or planes at an edge. The contact
+   * solver treats each surface separately, see PairSurfaces; velocity corrections and tests treat the entire pair.
    *
    * Coulomb's law can have two solutions: a pair stops at a flank, or slides up the flank. This requires a coefficient of
    * friction of the face above tan(90 degrees - a + friction angle of the flank), where a is the flank angle. Keys jam if

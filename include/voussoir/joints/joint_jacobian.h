@@ -19,12 +19,10 @@ namespace Voussoir
    * is used in both directions while it is in the cache. A product J z = d_force z + d_gap W z therefore
    * needs no further access to W. The change of the gap is known at the end.
    *
-   * Single precision halves the memory traffic. It is sufficient for Newton steps, because their residuals
-   * are computed in double precision.
+   * Single precision halves the memory traffic. The residuals of Newton steps are computed in double precision.
    *
-   * If GMRES takes many iterations, or if this is expected (statics), the block LU decomposition of the whole
-   * chain (JointChain) replaces the preconditioner. This requires that each joint is coupled to its
-   * neighbours only. */
+   * If GMRES takes many iterations, or if this is expected (statics), the block LU decomposition of the whole chain
+   * (JointChain) replaces the preconditioner. This requires that each joint is coupled to its neighbours only. */
   class JointJacobian : public ContactJacobian
   {
   public:
