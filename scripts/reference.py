@@ -108,7 +108,8 @@ These are the messages of errors in the sources, by directory; … stands for na
 """
     for directory in sorted(path for path in (ROOT / "source").iterdir() if path.is_dir()):
         found = {message(code) for file in directory.glob("*.cc") for code in arguments(
-            file.read_text(encoding="utf-8"), r"(?:throw (?:InputError|ComputationError|CoarseWater|FactorTooLarge)|\b(?:fail|fail_in|refuse|refuse_name|too_coarse))")}
+            file.read_text(encoding="utf-8"), r"(?:throw (?:InputError|ComputationError|CoarseWater|FactorTooLarge)"
+            r"|\b(?:fail|fail_in|refuse|refuse_name|too_coarse))")}
         rows = sorted((one for one in found if len(one.split()) > 4), key=lambda one: one.strip("… \"").lower())
         text += f"\n## {directory.name}\n\n" + "".join(f"- {escape(one)}\n" for one in rows) if rows else ""
     return text

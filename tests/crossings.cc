@@ -178,7 +178,24 @@ namespace
   }
 } // namespace
 
+namespace
+{
+  /** The sequence of the pairs of a cluster, on which iterations depend, is that of their inclination. */
+  void sequence()
+  {
+    Structure structure = Blocks(wall(2, 3, 2), .5, false).structure;
+    std::reverse(structure.pairs.begin(), structure.pairs.end());
+    unsigned int wrong = 0, n = 0;
+    for (const auto &cluster : PairClusters(structure).clusters)
+      for (std::size_t i = 0; i + 1 < cluster.pairs.size(); ++i, ++n)
+        wrong += std::abs(structure.pairs[cluster.pairs[i]].frame[0][2]) >
+                 std::abs(structure.pairs[cluster.pairs[i + 1]].frame[0][2]) + 1e-5;
+    report("clusters of reversed pairs: neighbours in another sequence, of " + std::to_string(n), wrong, "0",
+           n > 0 && wrong == 0);
+  }
+} // namespace
+
 int main()
 {
-  return run_all({graph, impacts, solver});
+  return run_all({graph, impacts, solver, sequence});
 }

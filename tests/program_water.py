@@ -369,6 +369,13 @@ def symmetric():
         slips = [max(row[names.index(f"slip_downstream_{joint}")] for row in rows) for joint in (1, 2, 3)]
         print(f"    water elements of {size} m: slips {slips} m")
         expect(slips[0] > .005 and slips[1] < 1e-7 and abs(slips[0] - slips[2]) < 1e-7, f"slips {slips}")
+    runs("scene.prm", "--output", "valley", *settings(  # the bed has a slight bend at y = 0
+        "Mesh/Arch210/Equal rows=true", "Mesh/Arch210/Smallest height=20", "Reservoir/Model=acoustic", "Reservoir/Water level=147",
+        "Reservoir/Element size=31.5", "Reservoir/Reflection=0.6", "Motion/Duration=0.05"))
+    points = [row[:3] for row in table("valley/water_pressure.csv")[1]]
+    off = max(min(math.dist((x, -y, z), other) for other in points) for x, y, z in points)
+    print(f"    water mesh of a symmetric valley: {len(points)} points at the dam, at most {off:.1e} m from their mirror images")
+    expect(len(points) > 50 and off < 1e-6, f"{len(points)} points, {off} m")
 
 
 def radiation():
