@@ -26,7 +26,7 @@ NAVIGATION = {  # pages of doc/, in this order; index: README, pages: doc/index.
     "How-to": ("tutorials/2_own_dam", "accuracy", "needs", "tutorials/3_own_records", "ensembles", "studies", "report",
                "messages", "parallel"),
     "Reference": ("input_file", "generated/entries", "generated/commands", "output", "generated/columns", "mesh", "loads", "python",
-                  "base_joints", "generated/refused_pairs", "glossary", "changes"),
+                  "base_joints", "generated/refused_pairs", "generated/messages", "glossary", "changes"),
     "Examples": ("examples/README", *(f"examples/{name}/README" for name in ("first_run", "own_dam", "keys", "base_joint", "rock", "water", "ensemble",
                                                                              "koyna", "snap_back", "bricks"))),
     "Theory": ("method", "water", "keys", "rock", "boundary", "damping"),
