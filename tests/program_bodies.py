@@ -87,9 +87,9 @@ def force():
         refused(["release_explicit.prm", "--validate", *settings(f"Loads/Force history={text}")], "Force history", *parts)
     write("back.txt", "0 0\n1 0\n0.5 1\n")
     refused(["release_explicit.prm", "--validate", *settings("Loads/Force history=a: 0.2 0.2 0.4; 0 0 1; back.txt")], "back.txt, line 3", "0.5 s")
-    for headings, column in (("time [s], force [kN]", "force [kN]"), ("t (ms), F (N)", "t (ms)"), ("force [N], time [s]", "time [s]")):
+    for headings, wrong in (("time [s], force [kN]", "force [kN]"), ("t (ms), F (N)", "t (ms)"), ("force [N], time [s]", "time [s]")):
         write("headings.txt", headings + "\n0, 0\n1, 1\n")
-        refused(["release_explicit.prm", "--validate", *settings("Loads/Force history=a: 0.2 0.2 0.4; 0 0 1; headings.txt")], "headings.txt", column)
+        refused(["release_explicit.prm", "--validate", *settings("Loads/Force history=a: 0.2 0.2 0.4; 0 0 1; headings.txt")], "headings.txt", wrong)
 
 
 def free():

@@ -178,7 +178,7 @@ namespace Voussoir
          [](const Scene &scene) { return lengths(scene.joints.gaps, "Joints/Initial gaps"); }},
         {"Joints/Keys/Clearances",
          "m",
-         {1e-5, .05, true},
+         {0., .1},
          [](const Scene &scene) { return lengths(scene.joints.clearances, "Joints/Keys/Clearances"); }},
         {"Dynamics/Initial velocity", "m/s", {1e-4, 10., true}, initial_velocities},
         {"Statics/Stages", "m", {1e-5, .2}, widths_of_cuts},

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small scenes that cover every pair of choices of the program, and relations that must hold without a reference.
 
-    python3 tests/combinations VOUSSOIR [--seed N] [--tenth] [--jobs N] [--list-refused FILE.md] [--draw] [--only K] [--output DIR]
+    python3 tests/combinations VOUSSOIR [--seed N] [--tenth] [--jobs N] [--list-refused FILE.md] [--draw] [--only K] [--relations N]
+                                 [--output DIR]
 
 Factors and their levels are the selections and switches of `voussoir parameters json`, the laws of the joints and the loads; only lengths,
 levels and lists are given here. A greedy array of strength 2 covers each pair of levels of two factors by a scene in which both have an
@@ -13,6 +14,7 @@ or the program accepts a pair that is refused in the manual.
 --tenth         the first seven scenes
 --list-refused  writes the refused pairs as a page of the manual
 --draw          draws and validates the scenes only
+--relations N   relations of a scene that need other runs (default 3)
 --only K        the scene K of the last array in this directory only, with all relations
 """
 
@@ -123,6 +125,7 @@ def main():
     parser.add_argument("--draw", action="store_true")
     parser.add_argument("--only", type=int)
     parser.add_argument("--scenes", type=int, default=400, help="largest number of scenes")
+    parser.add_argument("--relations", type=int, default=3)
     parser.add_argument("--output", type=Path, default=Path("combinations"))
     options = parser.parse_args()
     run_program.VOUSSOIR = str(Path(options.voussoir).resolve())
@@ -147,7 +150,7 @@ def main():
             rows.append(checked(case, first))
             if case.first:
                 is_slow = time.time() - start > SLOW
-                at_most = len(RELATIONS) if options.only else (4, 0)[is_slow] if options.tenth else (3, 1)[is_slow]
+                at_most = len(RELATIONS) if options.only else (4, 0)[is_slow] if options.tenth else 1 if is_slow else options.relations
                 relations = (*ALWAYS, *chosen(number, scene, idle, met, at_most))
                 checks.append(pool.submit(all_checked, case, relations))
             elif rows[-1][2] != "failed":
