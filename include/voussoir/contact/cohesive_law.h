@@ -15,8 +15,8 @@ namespace Voussoir
    * open. The bond is lost at the opening g_c, or immediately if the fracture energy G_f is 0.
    *
    * History variables: {0 bonded, 1 cracked, 2 lost; largest opening since it cracked [m]}. A pair that cracks, and is
-   * unloaded by other cracks in the same step before it moves, is bonded again. A pair that slipped without opening
-   * counts as opened by 1e-8 g_c.
+   * unloaded by other cracks in the same step before it moves, is bonded again. A closed crack that slips loses its
+   * bond.
    *
    * Two elements at the joint that are longer than E G_f/sigma_t^2 store more energy than the crack dissipates; the
    * stress then drops suddenly. The law does not support edges where planes of a joint meet.

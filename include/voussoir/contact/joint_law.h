@@ -102,9 +102,8 @@ namespace Voussoir
     virtual Vector3 solve(const Matrix3 &H, const Vector3 &b, const PairHistory &history) const = 0;
 
     /** Returns the impulse that the law allows in an impact [N s]. The velocity of side 2 relative to side 1
-     * after the impact is H impulse + v. Called for closed pairs; the impulse never adds energy, also with @p active
-     * 0. If is_tangentially_tied() is true, it is also
-     * called for open pairs, with @p active 0.
+     * after the impact is H impulse + v. Called for closed pairs, and with @p active 0 for open pairs if
+     * is_tangentially_tied() is true. The impulse never adds energy, for any @p active.
      * @param H inverse mass of the pair [1/kg]
      * @param v velocity of side 2 relative to side 1 without the impulse [m/s]
      * @param history data of the pair

@@ -11,7 +11,7 @@ namespace Voussoir
   /** Formulation of the equations of a joint law. */
   enum class Equations
   {
-    alart_curnier, ///< as in the paper, with the angle of the trial force: a projection, Lipschitz continuous
+    alart_curnier, ///< with the angle of the trial force: a projection, Lipschitz continuous
     paper          ///< (2b), (3b), (4b) of the paper, with the angle of the force, undefined for zero force
   };
 

@@ -26,7 +26,7 @@ namespace Voussoir
   void alart_curnier(const Vector3 &force, double opening, const std::array<double, 2> &slip, double friction,
                      double rho, PairEquations &equations);
 
-  /** Returns the error of Coulomb's law, the natural map of De Saxce [N]: r - P(r - rho (u + mu |u_t| n)). P
+  /** Returns the error of Coulomb's law, the natural map of De Saxce [N]: force - P(force - rho (u + mu |u_t| n)). P
    * is the projection onto the friction cone, and u (@p moved) consists of opening and slip [m]. */
   Vector3 natural_map(const Vector3 &force, const Vector3 &moved, double friction, double rho);
 

@@ -39,7 +39,7 @@ namespace Voussoir
     /** Groups and sorts the pairs: the lift and base joints of monolith m belong to the contraction joint m - 1. */
     void group_by_monolith(Structure &structure) const;
 
-    /** Finds the clusters of pairs where joints cross. Throws InputError if their models exclude it. */
+    /** Finds the clusters of pairs where joints cross. */
     void cross(Structure &structure);
 
     /** Assigns the laws of the pairs. Pairs between @p tied_nodes are tied. Throws InputError if laws or crossings

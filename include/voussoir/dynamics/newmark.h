@@ -30,7 +30,7 @@ namespace Voussoir
      * step. The unknown of the step is then an increment, see StepEquation. Ignored with a @p support.
      *
      * Throws InputError if @p rule is not ImpactRule::mean_force but a law or the support requires it, or if
-     * a node belongs to two pairs. Throws ComputationError if a body cannot be factorised. */
+     * pairs share nodes and the rule is paper. Throws ComputationError if a body cannot be factorised. */
     Newmark(const Structure &structure, const JointLaws &laws, const ContactParameters &parameters, double dt,
             ImpactRule rule, Support *support = nullptr, bool single_factors = false);
 
