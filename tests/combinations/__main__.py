@@ -108,7 +108,7 @@ def page_of(net):
     head = ["| Choices | Message |", "|---|---|"]
     return "\n".join(["<!-- Written by tests/combinations --list-refused. -->", "# Refused pairs of choices", "",
                       "The program refuses these pairs of choices, together with the defaults of all others.", "", *head, *rows(2), "",
-                      "These choices are refused together only.", "", *head, *rows(3), *rows(1)]) + "\n"
+                      "These choices are refused alone, or three together.", "", *head, *rows(3), *rows(1)]) + "\n"
 
 
 def drawn_before(file, number):
