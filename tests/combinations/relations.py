@@ -449,7 +449,7 @@ def base_force(case):
         raise Failed(f"base force {total} N, loads {loads} N, difference {error:.1e}")
 
 
-def pieces(corners, n=6):
+def pieces(corners, n=24):
     """Outward area vector and height of the parts of a quadrilateral."""
     def at(a, b):
         return [(1 - a) * (1 - b) * p + a * (1 - b) * q + a * b * r + (1 - a) * b * s for p, q, r, s in zip(*corners)]
