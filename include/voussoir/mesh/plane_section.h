@@ -2,6 +2,7 @@
 #ifndef voussoir_plane_section_h
 #define voussoir_plane_section_h
 
+#include <voussoir/base/tensor3.h>
 #include <voussoir/mesh/mesh.h>
 
 #include <array>
