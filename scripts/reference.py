@@ -99,15 +99,19 @@ def message(code):
     return re.sub("…+", "…", text.replace('\\"', '"').replace("\\n", " "))
 
 
+def first_sentence(text):
+    return re.split(r"(?<=[^ .][.]) (?=[A-Z\"`])", text)[0].strip()
+
+
 def messages_page():
     """doc/generated/messages.md: the errors of each directory of the sources."""
     text = NOTE + """# Errors
 
-These are the messages of errors in the sources, by directory; … stands for names and numbers.
+These are the first sentences of the errors in the sources, by directory; … stands for names and numbers. The program also prints the remedy.
 [Messages](../messages.md) explains the kinds of messages.
 """
     for directory in sorted(path for path in (ROOT / "source").iterdir() if path.is_dir()):
-        found = {message(code) for file in directory.glob("*.cc") for code in arguments(
+        found = {first_sentence(message(code)) for file in directory.glob("*.cc") for code in arguments(
             file.read_text(encoding="utf-8"), r"(?:throw (?:InputError|ComputationError|CoarseWater|FactorTooLarge)"
             r"|\b(?:fail|fail_in|refuse|refuse_name|too_coarse))")}
         rows = sorted((one for one in found if len(one.split()) > 4), key=lambda one: one.strip("… \"").lower())

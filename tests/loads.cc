@@ -162,8 +162,8 @@ namespace
     below(name + "no stress [of E alpha dT]", stress / (bar.concrete.young * a * 20.), 3e-5);
   }
 
-  /** Without displacements the stress is -E alpha (T - T_g) (nu = 0, elements without incompatible modes). T is linear in x and
-   * between the elevations 7.5, 15 and 22.5 m, which nodes have, and constant below and above. */
+  /** Without displacements the stress is -E alpha (T - T_g) (nu = 0, elements without incompatible modes). The
+   * temperature T is linear in x and between 7.5, 15 and 22.5 m, the elevations of nodes, and constant elsewhere. */
   void clamped_profile()
   {
     const Heated bar(
@@ -187,7 +187,7 @@ namespace
   }
 
   /** The work of the thermal load in a uniform vertical strain 1/H is the force E alpha m A of a bar held at both
-   * ends, with the mean temperature change m over its height H (nu = 0). */
+   * ends (nu = 0). m is the mean temperature change over the height H. */
   void column_with_profile()
   {
     const Heated bar(
@@ -270,7 +270,7 @@ namespace
   void free_ring()
   {
     Heated      disc(ring(64, 4, .5), 2, heat(10., 30.), 0.);
-    JointSystem system(disc.structure, JointLaws(), ContactParameters(), {1e-3}); // held by hardly anything
+    JointSystem system(disc.structure, JointLaws(), ContactParameters(), {1e-3}); // soft springs hold it
     Unknowns    u;
     system.solve_free(disc.thermal.load, u);
     const auto   stress = disc.stress(u);

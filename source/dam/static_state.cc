@@ -198,8 +198,8 @@ namespace Voussoir
         return true;
       }
 
-      /** Solves a stage with increments that are halved until they converge and, if the state depends on them, until the
-       * displacements at its end change by less than a tolerance. The state is that of the finer increments. */
+      /** Solves a stage with increments that are halved until they converge and, if the state depends on them, until
+       * the displacements at its end change by less than a tolerance. The state is that of the finer increments. */
       void refine()
       {
         const Snapshot     start{state, gap, copy_of(water)};
@@ -270,8 +270,8 @@ namespace Voussoir
         dam.layout.laws.lose_bond(p, state.memory);
       }
 
-      /** Grouts the pairs before a stage: their gap is zero in the current state. The grout that sets carries the force of
-       * the contact and of the fluid grout. */
+      /** Grouts the pairs before a stage: their gap is zero in the current state. The grout that sets carries the force
+       * of the contact and of the fluid grout. */
       void grout()
       {
         grouted = path.part(stage).grouted;
@@ -309,7 +309,7 @@ namespace Voussoir
       ContactResult iterate(const Unknowns &load, const Unknowns &offset, const Unknowns &start,
                             const Unknowns &committed, const double negligible)
       {
-        constexpr unsigned int most = 100;     // rounds
+        constexpr unsigned int most = 100;     // iterations
         constexpr double       allowed = 1e-7; // of the sum of all nodal loads
         ContactResult          total;
         double                 before = INFINITY;

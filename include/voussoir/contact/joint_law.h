@@ -34,7 +34,7 @@ namespace Voussoir
   enum class JointEvent
   {
     limit, ///< JointLaw::utilisation() exceeds 1
-    cut    ///< the bond is lost at once: a saw cut, a gap that grout did not fill, or a brittle crack
+    cut    ///< the bond is lost immediately: a saw cut, a gap that grout did not fill, or a brittle crack
   };
 
   /** Data of a pair besides force and gap. A law has no velocity and no time step. */
@@ -68,7 +68,7 @@ namespace Voussoir
    * which the time integration stores, also for reduced time steps and checkpoints.
    *
    * Order of the calls in a time step (4: trapezoidal scheme only):
-   * 1. solve(), in implicit steps also evaluate() and error(), until all pairs converge; in explicit ones evaluate() last;
+   * 1. solve(), in implicit steps also evaluate() and error(), until all pairs converge; explicit: evaluate() last;
    * 2. utilisation() for each pair. If a value exceeds 1, apply_event() for the pairs with the largest
    *    values, and the step is solved again from 1;
    * 3. commit() once for each pair;

@@ -8,13 +8,13 @@
 
 namespace Voussoir
 {
-  /** Law of a pair with several flat contact surfaces and Coulomb friction: shear keys (KSM), and edges of meshed keys.
-   * The face of the joint is the first surface; the secondary surfaces are key flanks, or planes at an edge. The contact
-   * solver treats each surface separately, see PairSurfaces; velocity corrections and tests treat the entire pair.
+  /** Law of a pair with several flat contact surfaces and Coulomb friction: shear keys (KSM), edges of meshed keys.
+   * The first surface is the face of the joint; secondary surfaces are key flanks, or planes at an edge. The contact
+   * solver treats each surface alone, see PairSurfaces; velocity corrections and tests treat the entire pair.
    *
-   * Coulomb's law can have two solutions: a pair stops at a flank, or slides up the flank. This requires a coefficient of
-   * friction of the face above tan(90 degrees - a + friction angle of the flank), where a is the flank angle. Keys jam if
-   * the coefficient of friction of the flanks exceeds tan a. */
+   * Coulomb's law can have two solutions: a pair stops at a flank, or slides up the flank. The coefficient of
+   * friction of the face is then above tan(90 degrees - a + friction angle of the flank), with the flank angle a.
+   * Keys jam if the coefficient of friction of the flanks exceeds tan a. */
   class SurfacesLaw : public JointLaw
   {
   public:

@@ -32,7 +32,7 @@ namespace Voussoir
    * - prescribed nodes (the base of the dam): element partition of Hughes and Liu. The caller supplies their predicted
    *   motion and receives their force on the rock elements.
    *
-   * Displacements are absolute, without static ones. Values per node have the components x, y, z in the axes of the mesh.
+   * Displacements are absolute, without static ones. Values per node are x, y, z in the axes of the mesh.
    *
    * The region is created at rest. Optional calls before the first step, in this order: set_boundary(),
    * split_up(), set_free_field(); fix(), set_prescribed() and keep_energy() in any order; start(). */

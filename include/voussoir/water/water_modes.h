@@ -16,9 +16,9 @@ namespace Voussoir
    *
    * @param water coupling of dam and water
    * @param model AcousticWater::model_for(0)
-   * @param modes modes with incompressible water, ascending; receives the frequencies [Hz], ascending. The shapes remain.
-   * @param count number of modes to replace; others complete the basis, replace paths that end in an earlier mode, and
-   * are removed
+   * @param modes modes with incompressible water; receives the frequencies [Hz], ascending. The shapes remain.
+   * @param count number of modes to replace; the others complete the basis, and are taken where a path ends in an
+   * earlier mode
    *
    * Returns the damping ratio of each mode by radiation at the end of the channel, and by absorption at bed and banks
    * [-]. It is not a number for a mode that keeps its frequency, because the iteration did not converge. */
