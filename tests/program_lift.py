@@ -13,7 +13,7 @@ sys.path.insert(0, str(GOLDEN))
 import meshes  # noqa: E402
 from compare import scene  # noqa: E402
 from program_base import ARCH, BASE, G, RIGID, pulse, sections  # noqa: E402
-from run_program import expect, run_cases, runs, settings, summary, table, write_scene  # noqa: E402
+from run_program import expect, run_cases, runs, same_to_the_bit, settings, summary, table, write_scene  # noqa: E402
 
 LIFTS = settings("Mesh/Arch210/Lift joints=2")
 EXACT = settings("Dynamics/Factors=double")  # tests of round-off
@@ -185,6 +185,10 @@ def arch():
     shown = runs("scene.prm", "--output", "all", "--validate", *ARCH, *settings("Mesh/Arch210/Joints=11", "Mesh/Arch210/Lift joints=1",
                  "Mesh/Arch210/Elements along=24", "Mesh/Arch210/Elements up=20"))
     expect("6 lift joints" in shown, shown)
+    # Where joints cross, a law has the entries that it reads, and no others.
+    for name, more in (("keys", ()), ("keys_glued", ("Joints/Adhesion=2e5", "Joints/Tangential stiffness=1e10"))):
+        runs("scene.prm", "--output", name, *ARCH, *LIFTS, *settings("Joints/Model=KSM", "Motion/Duration=0.3", *more))
+    same_to_the_bit("keys", "keys_glued")
     choices = runs("scene", "scene.prm", "--choices", *ARCH, *LIFTS)
     expect("tied lift joints" in choices, choices)
 

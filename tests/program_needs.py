@@ -385,6 +385,13 @@ def declared():
     groups = {row["group"] for row in rows}
     print(f"    {len(rows)} rows in the groups {', '.join(sorted(groups))}")
     expect({"joints", "water", "numerics"} <= groups, f"{groups}")
+    base = ("Mesh/Arch210/Base joint=true", "Joints/Overrides=base: FJA")
+    of_base = json.loads(runs("scene", "scene.prm", "--choices", *settings(*base)))["choices"]
+    keys = next(row["set"] for row in of_base if row["name"] == "KSM")
+    runs("scene.prm", "--validate", *settings(*base, *(f"{entry}={value}" for entry, value in keys.items())))  # the base has no keys
+    staged = json.loads(runs("scene", "scene.prm", "--choices", *settings("Statics/Stages=fill 60, grout 210")))["choices"]
+    impossible = {"empty reservoir", "self-weight monolithic", "tied"}
+    expect(impossible <= {row["name"] for row in rows} and not impossible & {row["name"] for row in staged}, f"{staged}")
     text = runs("needs", "scene.prm", "--only", "joints", "--seconds", "0.5", "--output", "out", *LONG)
     found = json.loads(Path("out/needs.json").read_text())
     expect({row["group"] for row in found["rows"]} == {"joints"} and "tied" in text, text)

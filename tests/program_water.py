@@ -427,6 +427,9 @@ def messages():
     for entries, part in ((["Reservoir/Sound speed=1500"], "Sound speed"), ([*("Reservoir/Model=acoustic", "Reservoir/Factor=0.5")], "Factor")):
         text = runs("scene.prm", "--validate", *settings("Dynamics/Steps per sample=2", "Reservoir/Element size=25", *entries))
         expect(re.search(rf"warning: .*Reservoir/{part}.* no effect", text), f"{part}: {text}")
+    for entries, warned in (((), True), (("Reservoir/Length=1170",), False), (("Reservoir/Reflection=0.9",), False)):
+        text = runs("scene.prm", "--validate", *ACOUSTIC, *settings("Reservoir/Element size=25", "Dynamics/Steps per sample=2", *entries))
+        expect(warned == (" Set Reservoir/Length to 1170 m" in " ".join(text.split())), f"{entries}: {text}")
     refused(["modes", "scene.prm", *ACOUSTIC, "--spectrum", "design"], "Westergaard")
     old = settings("Motion/Source=none", "Reservoir/Added mass=none")
     text = runs("scene.prm", "--validate", *old)
