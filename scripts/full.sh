@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # The checks before a release, some hours: all tests, the combinations of choices, sanitizers, all mutants, the benchmarks that judge themselves, line coverage, and
 # the quick tests on Debian 13 (as root, with debootstrap).
-# Goes on after a check that fails; build/full.md has date, machine and a row for each check, to be put into doc/verification.md,
-# and build/logs what each printed. Exit status: 0 if all passed.
+# Goes on after a check that fails; build/full.md has date, machine and a row for each check, build/refused_pairs.md
+# the refused pairs (for doc/generated), and build/logs what each printed. Exit status: 0 if all passed.
 # Usage: scripts/full.sh [CHECK...]     tests, combinations, sanitizers, mutants, benchmarks, coverage, systems; all without one
 # shellcheck disable=SC2317 # the checks are called by their names
 set -euo pipefail
@@ -28,7 +28,8 @@ systems() { scripts/try_release.sh trixie; }
 combinations()
 {
   scripts/build.sh
-  VOUSSOIR_START_SERVER=$PWD/build/tests/libstart_server.so python3 tests/combinations build/voussoir --output build/combinations
+  VOUSSOIR_START_SERVER=$PWD/build/tests/libstart_server.so python3 tests/combinations build/voussoir --output build/combinations \
+    --list-refused build/refused_pairs.md
 }
 
 # Those whose exit status says whether the physics came out, on one thread. calculix.py and peers.py skip (77) without their data.

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Writes the reference pages of doc/generated: columns.md from scripts/columns.txt, messages.md from the sources, and with the program
-entries.md and commands.md.
+entries.md (units from the sources) and commands.md.
 
     scripts/reference.py [--voussoir build/voussoir] [--check]
 
@@ -73,7 +73,16 @@ def entries_page(program):
             text += f"| `{'/'.join([*path, name])}` | {escape(default)} | {meaning(entry)} |\n"
         return text + "".join(table(child, [*path, name]) for name, child in tree.items() if name not in own)
 
-    return NOTE + "# Entries of the input file\n\n`voussoir parameters` prints the same.\n" + table(json.loads(output(program, "parameters", "json")), [])
+    return (NOTE + "# Entries of the input file\n\n`voussoir parameters` prints the same.\n" + table(json.loads(output(program, "parameters", "json")), [])
+            + units_table())
+
+
+def units_table():
+    """The units of each dimension, from the sources."""
+    rows = {}
+    for unit, dimension in re.findall(r'\{"([^"]+)", "([^"]+)",', (ROOT / "source" / "base" / "units.cc").read_text(encoding="utf-8")):
+        rows.setdefault(dimension, []).append(unit.replace("\\u00b0", "°"))
+    return "\n## Units\n\n| Dimension | Units |\n|---|---|\n" + "".join(f"| {dimension} | {', '.join(units)} |\n" for dimension, units in rows.items())
 
 
 def commands_page(program):
@@ -92,10 +101,22 @@ def arguments(text, function):
                 break
 
 
+def bodies(text, head):
+    """The code between the braces after each match of a pattern."""
+    for match in re.finditer(head + r"\s*\{", text, re.S):
+        depth, end = 1, match.end()
+        for token in re.finditer(r'"(?:[^"\\]|\\.)*"|[{}]', text[end:]):
+            depth += {"{": 1, "}": -1}.get(token[0], 0)
+            if not depth:
+                yield text[end:end + token.start()]
+                break
+
+
 def message(code):
-    """The text of a C++ expression: its string literals, with an ellipsis for everything between them."""
+    """The text of a C++ expression: its string literals, with an ellipsis for everything between them and for formats."""
     parts = re.findall(r'"((?:[^"\\]|\\.)*)"|([^"]+)', code)
-    text = "".join("…" if other.strip(" \n+") else literal for literal, other in parts)
+    text = "".join("…" if other.strip(" \n+<") else literal for literal, other in parts)
+    text = re.sub(r"%[.\d]*(?:zu|td|[sdgfu])", "…", text).replace("%%", "%")
     return re.sub("…+", "…", text.replace('\\"', '"').replace("\\n", " "))
 
 
@@ -103,19 +124,51 @@ def first_sentence(text):
     return re.split(r"(?<=[^ .][.]) (?=[A-Z\"`])", text)[0].strip()
 
 
-def messages_page():
-    """doc/generated/messages.md: the errors of each directory of the sources."""
-    text = NOTE + """# Errors
+def listed(codes, least=5):
+    """The first sentences of messages with at least so many words, as a list."""
+    found = {first_sentence(message(code)) for code in codes}
+    rows = sorted((one for one in found if len(one.split()) >= least), key=lambda one: one.strip("… \"").lower())
+    return "".join(f"- {escape(one)}\n" for one in rows)
 
-These are the first sentences of the errors in the sources, by directory; … stands for names and numbers. The program also prints the remedy.
+
+def errors_of(text):
+    return arguments(text, r"(?:throw (?:InputError|ComputationError|CoarseWater|FactorTooLarge)|\b(?:fail|fail_in|refuse|refuse_name|too_coarse))")
+
+
+def warnings_of(text, is_all):
+    """The arguments of calls that warn, and the texts in functions whose name or comment mentions a warning; or in all."""
+    literal, head = r'(?:"(?:[^"\\]|\\.)*"|[^";])*', r"\w*warnings?\w*\([^;{}]*\)(?: const)?"
+    commented = r"/\*\*(?:(?!\*/).)*?warning(?:(?!\*/).)*\*/\s*std::(?:string|vector<std::string>)[^;{}]*"
+    codes = [*arguments(text, r"(?:warnings\.push_back|\bwarn)"),
+             *(f'"{code}"' for code in re.findall(r'"warning: ((?:[^"\\]|\\.|"\s*")*)"', text))]
+    for body in [text] if is_all else bodies(text, f"(?:{head}|{commented})"):
+        codes += re.findall(rf"return ({literal});", body) + re.findall(rf"\btext\s*<< ({literal});", body)
+    codes = [re.sub(r"^\s*(?:Warning)?\{[\w:]+,\s*", "", code) for code in codes]
+    return [code for code in codes if '"' in code and not re.match(r'\s*"(?:Set|Refine|, ) ', code)]
+
+
+def messages_page():
+    """doc/generated/messages.md: warnings, conditions of entries without effect, and the errors of each directory of the sources."""
+    sources = {file: file.read_text(encoding="utf-8") for file in sorted((ROOT / "source").glob("*/*.cc"))}
+    warnings = [code for file, text in sources.items() for code in warnings_of(text, file.stem in ("mesh_warnings", "scene_relations"))]
+    idle = [f'"{reason}"' for text in sources.values() for reason in re.findall(
+        r'\{"((?:[^"\\]|\\.|"\s*")+)",\s*(?:\[\]\(const Scene|\w+,\s*\{")', text)]
+    text = NOTE + f"""# Warnings and errors
+
+These are the first sentences of the messages in the sources; … stands for names and numbers. The program also prints the remedy.
 [Messages](../messages.md) explains the kinds of messages.
-"""
-    for directory in sorted(path for path in (ROOT / "source").iterdir() if path.is_dir()):
-        found = {first_sentence(message(code)) for file in directory.glob("*.cc") for code in arguments(
-            file.read_text(encoding="utf-8"), r"(?:throw (?:InputError|ComputationError|CoarseWater|FactorTooLarge)"
-            r"|\b(?:fail|fail_in|refuse|refuse_name|too_coarse))")}
-        rows = sorted((one for one in found if len(one.split()) > 4), key=lambda one: one.strip("… \"").lower())
-        text += f"\n## {directory.name}\n\n" + "".join(f"- {escape(one)}\n" for one in rows) if rows else ""
+
+## Warnings
+
+{listed(warnings)}
+## Entries without effect
+
+A warning names entries of the input file that have no effect, with one of these reasons:
+
+{listed(idle, 1)}"""
+    for directory in sorted({file.parent for file in sources}):
+        rows = listed(code for file, text in sources.items() if file.parent == directory for code in errors_of(text))
+        text += f"\n## Errors: {directory.name}\n\n{rows}" if rows else ""
     return text
 
 

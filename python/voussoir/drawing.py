@@ -350,6 +350,8 @@ def draw_energy(axes, run, largest):
         if np.any(run.energy[name]):
             label = "radiated" if name == "transmitted" else name.replace("_", " ")
             style = {"color": "k", "linewidth": 1.6} if name == "input" else {**line(number - 1), "linewidth": 1.}
+            if name in ("damping", "friction", "impact"):
+                style["linestyle"] = "--"
             axes.plot(run.energy["time"], run.energy[name] / scale, label=label, **style)
     axes.set_ylabel(f"energy [{unit}]")
     axes.margins(x=0)

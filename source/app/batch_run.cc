@@ -27,8 +27,8 @@ namespace Voussoir
       return "\"Dynamics/Scheme\" is not explicit";
     if (scene.foundation.model != "rigid")
       return "\"Foundation/Model\" is not rigid";
-    if (run.dam->water || (uplift.acts() && uplift.in_earthquake != "unchanged"))
-      return "the water reacts to the motion";
+    if (run.dam->neighbours.size() > 1 || (uplift.acts() && uplift.in_earthquake != "unchanged"))
+      return "water or another part reacts to the motion";
     if (!run.dam->forces.empty() || !scene.initial_velocities().empty() || run.n_steps == 0)
       return "the motion of the base is not the only load in time";
     if (scene.limits.sliding_safety > 0. || !scene.limits.wedges.empty())

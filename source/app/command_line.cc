@@ -91,7 +91,8 @@ namespace Voussoir
     std::string scene_file(const Arguments &arguments)
     {
       const auto &words = arguments.words;
-      if (arguments.command.empty() && words.size() > 1 && words[0].find('.') == std::string::npos)
+      if (arguments.command.empty() && !words.empty() && words[0].find_first_of("./") == std::string::npos &&
+          (words.size() > 1 || !std::filesystem::exists(words[0])))
         throw InputError("There is no command \"" + words[0] + "\". Did you mean `voussoir " +
                          nearest_command(words[0]) + "`? `voussoir --help` shows all.");
       if (words.size() > 1)

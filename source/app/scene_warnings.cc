@@ -119,7 +119,7 @@ namespace Voussoir
         {"Dynamics/Scheme is explicit",
          [](const Scene &s) { return s.is_explicit(); },
          {"Dynamics/Factors", "Foundation/Substeps", "Foundation/Coupling"}},
-        {"Dynamics/Scheme is trapezoidal",
+        {"Dynamics/Scheme is not explicit",
          [](const Scene &s) { return !s.is_explicit(); },
          {"Dynamics/Explicit step", "Dynamics/Mass scaling"}},
         {"Motion/Source is artificial",

@@ -44,11 +44,10 @@ namespace Voussoir
       {
       }
 
-      /** Returns the surfaces for the step. A key in its socket at the start of the step has the face and its
-       * flanks. A key that is out of the socket (opening >= height) and misaligned has its crest. A key that
-       * is out and aligned has the face only. If the step then passes through a flank, the step is repeated
-       * with the flanks. If the repeated step ends on the extension of a flank, it is repeated with the
-       * crest: see utilisation(). */
+      /** Returns the surfaces for the step. A key in its socket at the start of the step has the face and its flanks. A
+       * key that is out of the socket (opening >= height) and misaligned has its crest. A key that is out and aligned
+       * has the face only. If the step then passes through a flank, the step is repeated with the flanks. If the
+       * repeated step ends on the extension of a flank, it is repeated with the crest: see utilisation(). */
       PresentSurfaces present(const PairHistory &history) const override
       {
         PresentSurfaces result{{surfaces[0]}, {1}, history.start};
@@ -76,9 +75,8 @@ namespace Voussoir
         return result;
       }
 
-      /** Returns the number of history variables: events of the step; with elastic flank contact also two
-       * friction stresses per flank [Pa], and the largest compression of the flanks when the key left its
-       * socket [m]. */
+      /** Returns the number of history variables: events of the step; with elastic flank contact also two friction
+       * stresses per flank [Pa], and the largest compression of the flanks when the key left its socket [m]. */
       unsigned int n_memory() const override
       {
         return n_secondary() == 0 ? 0 : 1 + (seat > 0. ? 2 * n_secondary() + 1 : 0);

@@ -29,8 +29,7 @@ namespace Voussoir
       std::string (*warning)(const LawParameters &) = nullptr;
     };
 
-    /** All laws. The selection and the help of the entry "Joints/Model" and the messages follow
-     * from these rows. */
+    /** All laws. The selection and the help of the entry "Joints/Model" and the messages follow from these rows. */
     const LawRow laws[] = {
         {"tied", "no opening and no slip (monolithic dam)", make_tied_law, {}},
         {"FJA",

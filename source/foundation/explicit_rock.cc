@@ -7,6 +7,7 @@
 #include <voussoir/foundation/rock_report.h>
 #include <voussoir/motion/ground_motion.h>
 #include <voussoir/rock/arrival.h>
+#include <voussoir/rock/boundary_table.h>
 #include <voussoir/rock/rock_part.h>
 #include <voussoir/solid/critical_step.h>
 
@@ -63,8 +64,7 @@ namespace Voussoir
 
   namespace
   {
-    /** Returns the centre of the base at the height of its lowest node, where the waves arrive together [m].
-     * */
+    /** Returns the centre of the base at the height of its lowest node, where the waves arrive together [m]. */
     Vector3 lowest_base_place(const RockModel &model, const std::vector<BaseNode> &at_base,
                               const Vector3 &centre)
     {
@@ -111,9 +111,9 @@ namespace Voussoir
     model = make_rock_part(mesh, rock, find, parameters.n_substeps());
     for (BoundaryLine &line : model.lines)
       line.distance *= parameters.plane_strain ? 2. : 1.; // waves in a plane spread as r^(-1/2)
-    static_state = std::make_unique<RockStaticState>(model, at_base, parameters.sustained_ratio(),
-                                                     !dam.on_footings.empty(), parameters.boundary == "fixed",
-                                                     parameters.plane_strain);
+    static_state = std::make_unique<RockStaticState>(
+        model, at_base, parameters.sustained_ratio(), !dam.on_footings.empty(),
+        !make_boundary(parameters.boundary)->absorbs(), parameters.plane_strain);
     arrives = times_to(model, lowest_base_place(model, at_base, centre),
                        region_parameters(parameters, centre, 0.).incidence);
     mesh = HexMesh(); // no longer needed

@@ -62,8 +62,7 @@ namespace Voussoir
       return two_pi * a * std::pow(b / a, share);
     }
 
-    /** Solves normal equations, which are symmetric and positive definite. The last column is the right-hand
-     * side. */
+    /** Solves normal equations, which are symmetric and positive definite. The last column is the right-hand side. */
     std::vector<double> solved(Rows a)
     {
       const unsigned int n = a.size();

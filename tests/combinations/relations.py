@@ -48,6 +48,8 @@ SIZES = {"displacement": 1e-4, "acceleration": 1., "pressure": 1e4, "stress": 1e
 def compare(a, b, limit, renamed=lambda column: (column, 1)):
     """Throws Failed unless the results differ by at most the limit times the largest value of their kind. renamed: name and sign of a column in the
     second run, or None."""
+    if any("depends on the load increments" in warning for x in (a, b) for warning in warnings_of(summary(x))):
+        raise Omitted("the program warns that the static state depends on the load increments")
     one, two, worst = columns(a), columns(b), (0., "")
     for kind in {kind for kind, _ in one}:
         size = max(SIZES[kind], max(abs(x) for key, values in one.items() if key[0] == kind for x in values) * (1 if kind == "displacement" else 10))

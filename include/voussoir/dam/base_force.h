@@ -60,7 +60,7 @@ namespace Voussoir
    * means over a time step and exact for the discrete system. In a step with reduced time step they are exact
    * except for its curvature. They are available for every foundation and for tied joints. A base node of two
    * monoliths contributes to each of them. Mass-proportional damping is a load on the concrete. The staged
-   * weight acts by Dam::staged_reaction. With a BasePart there is one base: each node of the whole base
+   * weight acts by StagedWeight::reaction. With a BasePart there is one base: each node of the whole base
    * contributes the share of its force. */
   class BaseForces
   {

@@ -59,7 +59,7 @@ namespace Voussoir
     bool        is_reversible = false; ///< true: negative factors are plausible
     bool        is_by_gravity = false; ///< true: the load depends on "Statics/Gravity"
 
-    /** Returns true if the load acts before the static loads, in Dam::stage_self_weight(); null: never. */
+    /** Returns true if the load acts before the static loads, in staged_weight(); null: never. */
     bool (*is_staged)(const Scene &) = nullptr;
 
     /** Returns the level of the load [m], which must not be above the dam; null: no level. */

@@ -64,7 +64,7 @@ namespace Voussoir
     /** Returns the pressure of the fluid grout in a pair [Pa]. */
     double grout_pressure(std::size_t stage, double share, std::size_t pair) const;
 
-    /** Returns the width that a stage cuts from a joint of Dam::joints [m]. */
+    /** Returns the width that a stage cuts from a joint of JointLayout::joints [m]. */
     double cut_width(std::size_t stage, std::size_t joint) const;
 
     /** Returns warnings about stages that are outside of the dam. */

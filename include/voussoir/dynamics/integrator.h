@@ -44,7 +44,8 @@ namespace Voussoir
     virtual void resume(const DynamicState &state, const Energy &first, double largest_energy,
                         const Unknowns &reference);
 
-    /** Advances the state by one step.
+    /** Advances the state by one step: all members of DynamicState (carried as the scheme needs it) with all terms of
+     * Energy, #impulse, and update_largest(). A new member of the state belongs to serialize() in output/archive.h.
      * @param load nodal loads at the end of the step, three values per node [N]
      * @param base_velocity velocity x, y, z of the base at the end of the step [m/s]: absolute, or zero if
      * displacements are relative to the base. Mass-proportional damping acts on the velocity relative to it.

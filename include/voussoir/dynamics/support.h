@@ -45,8 +45,8 @@ namespace Voussoir
     virtual void advance(unsigned int n, const Unknowns &force, const Unknowns &place, double work) = 0;
   };
 
-  /** Part of the model next to the dam that takes the steps of an explicit scheme together with it (Leapfrog). Vectors
-   * have three values per node of the dam. */
+  /** Part of the model next to the dam that takes the steps of an explicit scheme together with it (Leapfrog), in which
+   * Neighbour::advance() must add nothing. Vectors have three values per node of the dam. */
   class StepNeighbour
   {
   public:

@@ -6,11 +6,10 @@
 
 namespace Voussoir
 {
-  /** Terms that a slowness p along x adds to a section in the y-z plane, whose fields have the form U(y, z, t
-   * - p x). With nodal quadrature of weights w these are (doc/boundary.md)
+  /** Terms that a slowness p along x adds to a section in the y-z plane, whose fields have the form U(y, z, t - p x):
+   * M_x u_x'' = -K_x u_x - G u_yz', M_yz u_yz'' = -K_yz u_yz + G^T u_x'. With nodal quadrature of weights w these are
    * - the masses of the nodes, less w p^2 (lambda + 2 mu) for u_x and w p^2 mu for u_y and u_z,
-   * - the coupling G_ij = p sum of w (lambda N_i grad N_j - mu grad N_i N_j) of u_x at i with u_y, u_z at j.
-   * */
+   * - the coupling G_ij = p sum of w (lambda N_i grad N_j - mu grad N_i N_j) of u_x at i with u_y, u_z at j. */
   class SlownessCoupling
   {
   public:

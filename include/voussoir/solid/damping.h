@@ -73,8 +73,9 @@ namespace Voussoir
    *
    *     w = u_s + modulus (u - u_s + sum_l c_l d_l),    d d_l / dt = du / dt - d_l / tau_l.
    *
-   * The memory variables d_l follow by the rule of the time integration, so all works of a step are exact. K d_l
-   * follows from K u by the same recursion, without a product with K. Without mechanisms (#c is empty), w = u.
+   * The memory variables d_l follow by the rule of the time integration, so all works of a step are exact. With r =
+   * dt/tau_l and the change U of u, d_l becomes ((1 - r/2) d_l + U)/(1 + r/2) by the trapezoidal rule, exp(-r) d_l +
+   * (1 - exp(-r)) U/r by leapfrog. So does K d_l with that of K u. Without mechanisms (#c is empty), w = u.
    *
    * Zones with ratios of their own: the force is K u + K_c (w - u), where K_c (Body::damped) is the stiffness matrix of
    * cells multiplied by the scales of their zones. Then d has K_c d, and the memory K_c u. */
