@@ -135,7 +135,7 @@ def newmark(options):
             axes[1].plot(energy["time"], 1e-9 * energy["joints"], color=color, ls="-" if steps == 1 else ":",
                          label=f"{name}, {10 / steps:g} ms")
     axes[1].set(xlabel="time [s]", ylabel="energy taken by the joints [GJ]")
-    axes[1].set_title(f"An arch dam (the earthquake brings {rows[2][2]} GJ)", fontsize=10)
+    axes[1].set_title(f"An arch dam (the earthquake brings {rows[1][2]} GJ)", fontsize=10)
     axes[1].legend(fontsize=8)
     table(("rule", "step [ms]", "input [GJ]", "taken by joints [GJ]", "taken by damping [GJ]", "largest opening [mm]",
            "compression [MPa]"), *rows)

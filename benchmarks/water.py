@@ -42,7 +42,7 @@ REFERENCE = "Westergaard"
 MODELS = {REFERENCE: {},
           "none": {"Reservoir/Model": "none"},
           "half of Westergaard": {"Reservoir/Factor": 0.5},
-          "acoustic": {**ACOUSTIC, "Reservoir/Length": SIX_DEPTHS},
+          "acoustic, six depths": {**ACOUSTIC, "Reservoir/Length": SIX_DEPTHS},
           "acoustic, reflection 0.75": {**ACOUSTIC, "Reservoir/Reflection": 0.75}}
 RESULTS = {"opening": "opening", "slip": "slip", "tension_upstream": "tension upstream", "tension_downstream": "tension downstream",
            "crest": "crest displacement"}

@@ -82,7 +82,8 @@ def units_table():
     rows = {}
     for unit, dimension in re.findall(r'\{"([^"]+)", "([^"]+)",', (ROOT / "source" / "base" / "units.cc").read_text(encoding="utf-8")):
         rows.setdefault(dimension, []).append(unit.replace("\\u00b0", "°"))
-    return "\n## Units\n\n| Dimension | Units |\n|---|---|\n" + "".join(f"| {dimension} | {', '.join(units)} |\n" for dimension, units in rows.items())
+    head = "\n## Units\n\n`kN/m^3` is a unit weight.\n\n| Dimension | Units |\n|---|---|\n"
+    return head + "".join(f"| {dimension} | {', '.join(units)} |\n" for dimension, units in rows.items())
 
 
 def commands_page(program):
@@ -114,56 +115,69 @@ def bodies(text, head):
 
 def message(code):
     """The text of a C++ expression: its string literals, with an ellipsis for everything between them and for formats."""
-    parts = re.findall(r'"((?:[^"\\]|\\.)*)"|([^"]+)', code)
+    parts = re.findall(r'"((?:[^"\\]|\\.)*)"|([^"]+)', re.sub(r'"xyz"\[\w+\]', "axis", code))
     text = "".join("…" if other.strip(" \n+<") else literal for literal, other in parts)
-    text = re.sub(r"%[.\d]*(?:zu|td|[sdgfu])", "…", text).replace("%%", "%")
+    text = re.sub(r"%[.\d]*(?:zu|td|[sdgfu])", "…", text).replace("%%", "%").replace("voussoir: warning: ", "")
     return re.sub("…+", "…", text.replace('\\"', '"').replace("\\n", " "))
 
 
 def first_sentence(text):
-    return re.split(r"(?<=[^ .][.]) (?=[A-Z\"`])", text)[0].strip()
+    """The first sentence, or two if it is short."""
+    sentences = re.split(r"(?<=[^ .][.]) (?=[A-Z\"`])", text)
+    return " ".join(sentences[:1 + (len(sentences[0].split()) < 5)]).strip()
 
 
 def listed(codes, least=5):
     """The first sentences of messages with at least so many words, as a list."""
     found = {first_sentence(message(code)) for code in codes}
-    rows = sorted((one for one in found if len(one.split()) >= least), key=lambda one: one.strip("… \"").lower())
-    return "".join(f"- {escape(one)}\n" for one in rows)
+    rows = [one for one in found if len(one.split()) >= least and not re.search("^…(; …|, and no|largest)|->", one)]
+    return "".join(f"- {escape(one)}\n" for one in sorted(rows, key=lambda one: one.strip("… \"").lower()))
+
+
+LITERAL = r'(?:"(?:[^"\\]|\\.)*"|[^";])*'  # code of a statement with its strings
+# Sources in which all composed texts are warnings
+OF_WARNINGS = ("checkpoint_file", "joint_reach", "mesh_groups", "mesh_warnings", "motion_files", "scene_ranges", "scene_relations", "transmitting_boundary")
 
 
 def errors_of(text):
-    return arguments(text, r"(?:throw (?:InputError|ComputationError|CoarseWater|FactorTooLarge)|\b(?:fail|fail_in|refuse|refuse_name|too_coarse))")
+    """The arguments of errors, and texts of several statements that begin as errors do."""
+    codes = [*arguments(text, r"(?:throw (?:InputError|ComputationError|CoarseWater|FactorTooLarge)"
+                              r"|\b(?:fail|fail_in|refuse|refuse_name|too_coarse))")]
+    more = rf"(?:\s*(?:if \([^;]*?\)\s*)?message\s*<< {LITERAL};)*"
+    return codes + re.findall(rf'\b(?:text|message)\s*(?:<<|=)\s*("The (?!added mass|later|law){LITERAL};{more})', text)
 
 
 def warnings_of(text, is_all):
     """The arguments of calls that warn, and the texts in functions whose name or comment mentions a warning; or in all."""
-    literal, head = r'(?:"(?:[^"\\]|\\.)*"|[^";])*', r"\w*warnings?\w*\([^;{}]*\)(?: const)?"
+    head = r"\w*warnings?\w*\([^;{}]*\)(?: const)?"
     commented = r"/\*\*(?:(?!\*/).)*?warning(?:(?!\*/).)*\*/\s*std::(?:string|vector<std::string>)[^;{}]*"
     codes = [*arguments(text, r"(?:warnings\.push_back|\bwarn)"),
-             *(f'"{code}"' for code in re.findall(r'"warning: ((?:[^"\\]|\\.|"\s*")*)"', text))]
+             *(f'"{code}"' for code in re.findall(r'"(?:voussoir: )?warning: ((?:[^"\\]|\\.|"\s*")*)"', text)),
+             *re.findall(rf'"(?:voussoir: )?warning: " (?:<<|\+) ({LITERAL});', text)]
     for body in [text] if is_all else bodies(text, f"(?:{head}|{commented})"):
-        codes += re.findall(rf"return ({literal});", body) + re.findall(rf"\btext\s*<< ({literal});", body)
+        codes += re.findall(rf"return ({LITERAL});", body) + re.findall(rf"\b(?:text|warning)\s*(?:<<|\+?=)\s({LITERAL});", body)
+        codes += [code.split(",", 2)[2] for code in arguments(body, "std::snprintf")]
     codes = [re.sub(r"^\s*(?:Warning)?\{[\w:]+,\s*", "", code) for code in codes]
-    return [code for code in codes if '"' in code and not re.match(r'\s*"(?:Set|Refine|, ) ', code)]
+    return [code for code in codes if '"' in code and not re.match(r'\s*" ?(?:Set|Refine|The static|A value|Is it|, ) ', code)]
 
 
 def messages_page():
     """doc/generated/messages.md: warnings, conditions of entries without effect, and the errors of each directory of the sources."""
     sources = {file: file.read_text(encoding="utf-8") for file in sorted((ROOT / "source").glob("*/*.cc"))}
-    warnings = [code for file, text in sources.items() for code in warnings_of(text, file.stem in ("mesh_warnings", "scene_relations"))]
+    warnings = [code for file, text in sources.items() for code in warnings_of(text, file.stem in OF_WARNINGS)]
     idle = [f'"{reason}"' for text in sources.values() for reason in re.findall(
         r'\{"((?:[^"\\]|\\.|"\s*")+)",\s*(?:\[\]\(const Scene|\w+,\s*\{")', text)]
     text = NOTE + f"""# Warnings and errors
 
 These are the first sentences of the messages in the sources; … stands for names and numbers. The program also prints the remedy.
-[Messages](../messages.md) explains the kinds of messages.
+[Messages](../messages.md) explains the kinds of messages. Some messages that are composed of many parts are missing.
 
 ## Warnings
 
 {listed(warnings)}
 ## Entries without effect
 
-A warning names entries of the input file that have no effect, with one of these reasons:
+A warning names entries of the input file that have no effect, because `Foundation/Model` or `Joints/Model` does not read them, or for one of these reasons:
 
 {listed(idle, 1)}"""
     for directory in sorted({file.parent for file in sources}):

@@ -24,6 +24,7 @@ ROWS = {**{f"{label} [MPa]": (f"extremes/{name}/value", 1e-6) for label, name in
         "crest at rest, downstream [mm]": ("static/crest_displacement/0", 1e3),
         "crest at rest, downstream of the base [mm]": ("static/crest_displacement/0", 1e3),
         "largest crest acceleration, downstream [g]": ("accelerations/crest/x/value", 1 / 9.80665),
+        "compression at the joint, which would crush concrete [MPa]": ("extremes/max_compression/value", -1e-6),
         "largest dynamic water pressure [MPa]": ("water/max_dynamic_pressure/value", 1e-6)}
 ENSEMBLE = {"opening [mm]": ("max_opening", 1e3), "slip [mm]": ("max_slip", 1e3), **{f"{label} [MPa]": (name, 1e-6) for label, name in TENSION.items()}}
 

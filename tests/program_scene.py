@@ -62,6 +62,7 @@ def options():
                              (["scene.prm", "--quiet", *out, *out], ("--output", "twice")),
                              (["scene.prm", "--output", "--quiet"], ("--output", "needs a value", "DIR")),
                              (["mehs", "scene.prm"], ('no command "mehs"', "`voussoir mesh`")),
+                             (["mehs"], ('no command "mehs"', "`voussoir mesh`")),
                              (["motion"], ("needs one scene file", "`voussoir motion --help`")),
                              (["modes", "scene.prm", "--count", "3x"], ("--count", "3x")),
                              (["parameters", "Joint"], ('"Joint"', 'Did you mean "Joints"', "markdown")),

@@ -139,7 +139,7 @@ def joint_history(runs, save):
         largest = max(draw_joint_history(axes, run, joint) for axes, joint in zip(rows[:, 0], worst))
         rows[0, 0].set_ylim(-0.04 * largest, 1.3 * largest if largest > 0 else 1)
         rows[0, 0].legend(loc="lower right", bbox_to_anchor=(1, 1), ncol=2)
-        rows[0, 0].set_title(f"{run.heading}\nOpenings at the crest, the joints that open most", loc="left")
+        rows[0, 0].set_title(f"{run.heading}\nOpenings of the joints that open most", loc="left")
         rows[-1, 0].set_xlabel("time [s]")
         figure.supylabel("opening [mm]", fontsize=11, x=0.06)
         save(run, figure, "joint_history")

@@ -14,7 +14,7 @@ import numpy as np
 from .palette import COLOURS
 
 MEASURES = {"Opening": ("opening", 1e3, "largest opening [mm]", "mm"), "Slip": ("slip", 1e3, "largest slip [mm]", "mm"),
-            "Tension": ("tension", 1e-6, "largest tension [MPa]", "MPa"),
+            "Tension": ("tension", 1e-6, "largest tension away from the base [MPa]", "MPa"),
             "Damage": ("damage_share", 100., "faces above {strength:g} MPa [%]", "%")}
 ENOUGH = 5  # records for fractiles
 
@@ -190,8 +190,8 @@ def draw_fragility(axes, study, pairs, limit, colour, text):
     fit, reason = None, "a scale is not positive"
     if min(scales) > 0 and min(map(len, by_record.values())) > 1:
         found = passings(by_record, limit)
-        fit, reason = lognormal_of_passings(*found), "fewer than three records pass between the scales"
-        source = f"{len(found[0])} of {len(by_record)} records pass between the scales"
+        fit, reason = lognormal_of_passings(*found), "fewer than three records exceed it between two scales"
+        source = f"{len(found[0])} of {len(by_record)} records exceed it between two scales"
     elif min(scales) > 0:
         fit, reason = lognormal_fit(scales, above, runs), "fewer than two scales have both"
         source = f"counts of {len(scales)} scales"

@@ -61,8 +61,8 @@ def row_of(directory, name, strength):
     extremes = extremes_of(summary)
     row = {"scene": name, "law": summary["law"], "foundation": summary["foundation"], "revision": summary["revision"],
            "opening": extremes.get("max_opening"), "slip": extremes.get("max_slip"),
-           "tension_upstream": extremes.get("max_tension_upstream"), "tension_downstream": extremes.get("max_tension_downstream"),
-           "compression": extremes.get("max_compression"), "energy_balance_error": summary.get("energy_balance_error"),
+           **{name: extremes.get(f"max_{name}_away_from_base") for name in ("tension_upstream", "tension_downstream", "compression")},
+           "energy_balance_error": summary.get("energy_balance_error"),
            "newton_mean": summary.get("newton_iterations", {}).get("mean"), "seconds": summary["seconds"]["wall"],
            "cpu_seconds": summary["seconds"]["cpu"], "memory_bytes": summary["memory_bytes"], "warnings": len(summary["warnings"])}
     tensions = [row[column] for column in ("tension_upstream", "tension_downstream") if row[column] is not None]

@@ -55,7 +55,7 @@ def row_in_words(directory, name):
     summary = summary_of(directory, name)
     extremes = extremes_of(summary)
     words = [f"opening {1e3 * extremes['max_opening']:.1f} mm"] if "max_opening" in extremes else []
-    tensions = [value for key, value in extremes.items() if key.startswith("max_tension")]
+    tensions = [value for key, value in extremes.items() if key.startswith("max_tension") and key.endswith("_away_from_base")]
     words += [f"tension {1e-6 * max(tensions):.1f} MPa"] if tensions else []
     return ", ".join([*words, f"{summary['seconds']['wall']:.0f} s"])
 

@@ -94,7 +94,8 @@ namespace Voussoir
       if (arguments.command.empty() && !words.empty() && words[0].find_first_of("./") == std::string::npos &&
           (words.size() > 1 || !std::filesystem::exists(words[0])))
         throw InputError("There is no command \"" + words[0] + "\". Did you mean `voussoir " +
-                         nearest_command(words[0]) + "`? `voussoir --help` shows all.");
+                         nearest_command(words[0]) +
+                         "`? `voussoir --help` shows all. Names of scene files end in .prm.");
       if (words.size() > 1)
         throw InputError("There are too many arguments: \"" + words[1] +
                          "\". `voussoir --help` shows the usage.");

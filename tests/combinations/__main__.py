@@ -3,7 +3,7 @@
 """Small scenes that cover every pair of choices of the program, and relations that must hold without a reference.
 
     python3 tests/combinations VOUSSOIR [--seed N] [--tenth] [--jobs N] [--list-refused FILE.md] [--draw] [--only K] [--relations N]
-                                 [--output DIR]
+                                 [--output DIR] [--resume]
 
 Factors and their levels are the selections and switches of `voussoir parameters json`, the laws of the joints and the loads; only lengths,
 levels and lists are given here. A greedy array of strength 2 covers each pair of levels of two factors by a scene in which both have an
@@ -15,11 +15,13 @@ or the program accepts a pair that is refused in the manual.
 --list-refused  writes the refused pairs as a page of the manual
 --draw          draws and validates the scenes only
 --relations N   relations of a scene that need other runs (default 3)
+--resume        goes on with the array in this directory; the scenes that it has are not checked again
 --only K        the scene K of the last array in this directory only, with all relations
 """
 
 import argparse
 import ast
+import math
 import os
 import re
 import shutil
@@ -113,8 +115,24 @@ def page_of(net):
 
 def drawn_before(file, number):
     """The scene with this number, as drawn by the last run; a scene may depend on whether those before it have a solution."""
-    found = [row for row in map(ast.literal_eval, file.read_text().splitlines() if file.exists() else ()) if row[0] == number]
+    found = [row for row in map(ast.literal_eval, file.read_text().splitlines() if file.exists() else ()) if row[0] == number and row[1]]
     return found[-1:] or sys.exit(f"combinations: the last run in {file.parent} drew no scene {number}.")
+
+
+def resumed(net, drawn, page):
+    """Number of the scenes in the directory. Their pairs are covered, unless a scene has no solution; refused pairs are those of the list."""
+    if page:
+        net.read_page(page, math.inf)
+    rows = [ast.literal_eval(line) for line in drawn.read_text().splitlines()]
+    without = {number for number, scene in rows if scene is None}
+    for number, scene in rows:
+        facts = net.validated(scene[0]) if scene else ""
+        if not isinstance(facts, str):
+            net.scenes.append((scene[0], net.learn_idle(scene[0], facts)))
+            if number in without:
+                net.unsolved()
+    print(f"    resumed: {net.counts()}", flush=True)
+    return max(number for number, _ in rows)
 
 
 def main():
@@ -126,13 +144,14 @@ def main():
     parser.add_argument("--list-refused", type=Path, metavar="FILE.md")
     parser.add_argument("--draw", action="store_true")
     parser.add_argument("--only", type=int)
-    parser.add_argument("--scenes", type=int, default=400, help="largest number of scenes")
+    parser.add_argument("--resume", action="store_true")
+    parser.add_argument("--scenes", type=int, default=1000, help="largest number of scenes")
     parser.add_argument("--relations", type=int, default=3)
     parser.add_argument("--output", type=Path, default=Path("combinations"))
     options = parser.parse_args()
     run_program.VOUSSOIR = str(Path(options.voussoir).resolve())
     directory = options.output.resolve() / f"seed-{options.seed[:12]}"
-    if options.only is None:
+    if options.only is None and not options.resume:
         shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True, exist_ok=True)
     written_files(directory)
@@ -140,8 +159,10 @@ def main():
     print(f"{len(net.choices.factors)} factors, {len(net.levels)} levels, {len(net.pairs)} pairs, seed {options.seed}", flush=True)
     accepted = net.read_page(PAGE, 10) if options.tenth else []
     met, checks, rows = {relation: set() for relation in RELATIONS}, [], []
+    before = resumed(net, drawn, options.list_refused) if options.resume else 0
     with ThreadPoolExecutor(options.jobs) as pool:
-        for number, (scene, idle) in drawn_before(drawn, options.only) if options.only else enumerate(net.draw(7 if options.tenth else options.scenes), 1):
+        array = drawn_before(drawn, options.only) if options.only else enumerate(net.draw(7 if options.tenth else options.scenes), before + 1)
+        for number, (scene, idle) in array:
             if options.list_refused:
                 options.list_refused.write_text(page_of(net))
             with drawn.open("a") as file:
@@ -157,6 +178,8 @@ def main():
                 checks.append(pool.submit(all_checked, case, relations))
             elif rows[-1][2] != "failed":
                 net.unsolved()
+                with drawn.open("a") as file:
+                    print((number, None), file=file)
         rows += [row for check in checks for row in check.result()]
     if options.list_refused:
         options.list_refused.write_text(page_of(net))

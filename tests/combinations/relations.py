@@ -48,8 +48,6 @@ SIZES = {"displacement": 1e-4, "acceleration": 1., "pressure": 1e4, "stress": 1e
 def compare(a, b, limit, renamed=lambda column: (column, 1)):
     """Throws Failed unless the results differ by at most the limit times the largest value of their kind. renamed: name and sign of a column in the
     second run, or None."""
-    if any("depends on the load increments" in warning for x in (a, b) for warning in warnings_of(summary(x))):
-        raise Omitted("the program warns that the static state depends on the load increments")
     one, two, worst = columns(a), columns(b), (0., "")
     for kind in {kind for kind, _ in one}:
         size = max(SIZES[kind], max(abs(x) for key, values in one.items() if key[0] == kind for x in values) * (1 if kind == "displacement" else 10))
@@ -221,14 +219,25 @@ def without_effect(case):
     if not idle:
         raise Omitted("all entries have an effect")
     file = case.net.write(f"scene-{case.number}-active", {e: v for e, v in case.entries.items() if e not in idle})
-    same_bits(case.first, case.run("active", file=file), ("warnings",))
+    active = case.run("active", file=file)
+    if case.scene["Foundation/Model"] == "massless":  # dam and rock are one system, or not, for a reason that can be without effect otherwise
+        return compare(case.first, active, 1e-9)
+    return same_bits(case.first, active, ("warnings",))
 
 
 def exported(case):
     return compare(case.first, case.own_mesh("exported", lambda mesh: None), 1e-6)
 
 
+def unless_cracks_depend(case):
+    """Large elements on cohesive joints: round-off can change the increments, and with them the cracks, as the program warns."""
+    if any("the cracked pairs depend on" in warning for warning in warnings_of(summary(case.first))):
+        raise Omitted("elements too large for the fracture energy: the cracks depend on increments and numbers of the joints")
+
+
 def shuffled(case):
+    unless_cracks_depend(case)
+
     def shuffle(mesh):
         order = list(range(len(mesh["nodes"])))
         random.Random(case.number).shuffle(order)  # place of each node
@@ -238,13 +247,13 @@ def shuffled(case):
         mesh["nodes"], mesh["elements"] = nodes, [(kind, tag, [order[n] for n in corners]) for kind, tag, corners in mesh["elements"]]
         random.Random(case.number).shuffle(mesh["elements"])
 
-    return compare(case.first, case.own_mesh("shuffled", shuffle), 1e-6)
+    # The static iterations between dam and rock end at 1e-9; where a pair hardly slips, the direction of its friction is less exact.
+    return compare(case.first, case.own_mesh("shuffled", shuffle), 1e-5 if case.scene["Foundation/Model"] == "rock" else 1e-6)
 
 
 def mirrored(case):
     """y -> -y: monoliths are counted from the other bank, loads and motions change their sign along y."""
-    if any("the cracked pairs depend on" in warning for warning in warnings_of(summary(case.first))):
-        raise Omitted("elements too large for the fracture energy: the cracks depend on the numbers of the joints")
+    unless_cracks_depend(case)
     joints = summary(case.first)["mesh"]["joints"]
     n = summary(case.first)["mesh"]["monoliths"]
     contraction = int(case.entries[case.grid + "Joints"]) if case.scene["mesh"] != "file" else int(case.scene["Mesh/GRID/Joints"])

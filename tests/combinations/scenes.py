@@ -3,6 +3,7 @@
 
 import itertools
 import json
+import math
 import os
 import random
 import re
@@ -204,7 +205,7 @@ class Net:
         """Takes the refused sets of the page, and validates one of @p share rows; the rows that are accepted."""
         rows, accepted = [(row, message) for levels, message in re.findall(r"^\| `(.*?)` \| (.*) \|$", page.read_text(), re.M)
                           for row in levels.split("`<br>`")] if page.exists() else (), []
-        first = self.random.randrange(share)
+        first = self.random.randrange(share) if share < math.inf else -1
         for number, (row, message) in enumerate(rows):
             levels = frozenset(tuple(part.split(" = ", 1)) for part in row.replace("...", "GRID").split("`, `"))
             if all(level in self.choices.factors.get(name, ()) for name, level in levels):

@@ -14,7 +14,6 @@ namespace Voussoir
   /** Discrete column of layered ground in which all fields have the form U(z, t - p s), with the horizontal
    * slowness p and the coordinate s along the horizontal direction of propagation. Derivatives along s are
    * -p times derivatives in time. With nodal quadrature the equations of the components u_s and u_z are
-   * (doc/boundary.md)
    *
    *   M_s u_s'' = -K_s u_s - G u_z',   M_z u_z'' = -K_z u_z + G' u_s',
    *
