@@ -16,6 +16,7 @@ import run_program
 from choices import DAMS, Choices, cost, text_of
 from run_program import Server, read_mesh, write_mesh
 
+FEW = 300  # open pairs, below which a scene is drawn for one pair
 ROOT = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1",
         "GLIBC_TUNABLES": "glibc.malloc.hugetlb=1"}  # without it, the program restarts itself
 
@@ -236,6 +237,25 @@ class Net:
         active = [x for x in scene.items() if x[0] not in self.inactive(scene)]
         return sum(frozenset(pair) in wanted for pair in itertools.combinations(active, 2)) - cost(scene), scene
 
+    def plain(self, seed):
+        """A scene with a pair and defaults, except for choices that give both an effect."""
+        scene = {**self.choices.default, **seed}
+
+        def without_effect(trial):
+            facts = self.validated(trial)
+            return {*seed} if isinstance(facts, str) else self.learn_idle(trial, facts) & seed.keys()
+        for _ in range(4):
+            facts, idle = self.validated(scene), without_effect(scene)
+            if isinstance(facts, str) or not idle:
+                break
+            reasons = " ".join(warning.partition(" no effect: ")[2] for warning in warnings_of(facts))
+            trials = [{**scene, name: level} for name in self.mentioned(reasons, scene) if name not in seed for level in self.choices.factors[name]]
+            better = [trial for trial in trials if len(without_effect(trial)) < len(idle)]
+            if not better:
+                break
+            scene = self.random.choice(better)
+        return scene
+
     def accepted(self, scene, seed):
         """Changes factors other than those of the seed until the program accepts the scene; its facts, or None if no scene has the seed."""
         default = self.choices.default
@@ -279,7 +299,11 @@ class Net:
                 break
             if not seeds:
                 continue
-            _, scene, seed = max(((*self.candidate(wanted, seed), seed) for seed in seeds), key=lambda x: x[0])
+            if len(wanted) > FEW:
+                _, scene, seed = max(((*self.candidate(wanted, seed), seed) for seed in seeds), key=lambda x: x[0])
+            else:
+                seed = seeds[0]
+                scene = self.plain(dict(seed))
             facts = self.accepted(scene, dict(seed))
             self.tries[frozenset(seed)] += 1
             if facts:
