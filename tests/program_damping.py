@@ -109,6 +109,21 @@ def explicit():
         expect(off < OFF[name] and error < 1e-10, f"{name}: openings off by {off}, energy balance {error}")
 
 
+def rest():
+    """Without a motion the explicit scheme keeps the static state, also where pairs at the base have another law, without history variables."""
+    write_scene()
+    write("rest.txt", "".join(f"{.01 * k:g} 0 0 0\n" for k in range(6)))
+    still = settings("Motion/Source=file", "Motion/File=rest.txt", "Motion/Unit=g", "Motion/Duration=-1", "Dynamics/Scheme=explicit", "Dynamics/Steps per sample=16",
+                     "Damping/Model=uniform", "Damping/Reference frequency=2", "Output/Figures=false")
+    for model in ("massless", "rock"):
+        for law, *entries in (("FJA", "Joints/Normal stiffness=2e10", "Joints/Tangential stiffness=1e10"), ("cohesive", "Joints/Strength=1e6"), ("KSM",)):
+            runs("scene.prm", "--output", f"{model}_{law}", *still, *settings(*ROCK, f"Foundation/Model={model}", f"Joints/Model={law}", *entries))
+            titles, rows = table(f"{model}_{law}/energy.csv")
+            kinetic = max(row[titles.index("kinetic")] for row in rows)
+            print(f"    {model}, {law}: kinetic energy up to {kinetic:.1e} J")
+            expect(kinetic < 1e-3, f"{model}, {law}: the dam at rest gets the kinetic energy {kinetic} J")
+
+
 def thrown():
     """The energy balance of the explicit scheme closes with an initial velocity and static loads."""
     write_scene()
@@ -216,4 +231,4 @@ def zones():
 
 
 if __name__ == "__main__":
-    run_cases(foundations, entries, modes, explicit, thrown, scaling, pulse, zones)
+    run_cases(foundations, entries, modes, explicit, rest, thrown, scaling, pulse, zones)

@@ -84,12 +84,6 @@ namespace Voussoir
         stiffness(structure), clusters(structure), states(structure.pairs.size(), PairState::open)
   {
     check(structure);
-    std::size_t at = 0;
-    for (const JointLaw *law : laws.of_pair)
-    {
-      memory_begin.push_back(at);
-      at += law->n_memory();
-    }
   }
 
   /** The velocity begins in the middle of a step before the start, v(-1/2) = v - h a / 2 with the acceleration a of the
@@ -224,7 +218,7 @@ namespace Voussoir
     const JointLaw &law = *laws.of_pair[p];
     if (law.n_memory() == 0 || law.utilisation(force, at, history_of(p)) <= limit)
       return false;
-    law.apply_event(now.memory.data() + memory_begin[p], JointEvent::limit);
+    law.apply_event(now.memory.data() + laws.memory_begin(p), JointEvent::limit);
     return true;
   }
 
@@ -243,7 +237,7 @@ namespace Voussoir
     PairHistory history(get(gap, p));
     history.area = structure.pairs[p].area;
     history.is_mean = true;
-    history.memory = now.memory.data() + memory_begin[p];
+    history.memory = now.memory.data() + laws.memory_begin(p);
     return history;
   }
 
@@ -363,7 +357,7 @@ namespace Voussoir
         states[p] = equations.state;
       }
       if (law.n_memory() > 0)
-        law.commit(f, at, history, now.memory.data() + memory_begin[p]);
+        law.commit(f, at, history, now.memory.data() + laws.memory_begin(p));
     };
     for (std::size_t p = 0; p < structure.pairs.size(); ++p)
       set(gap_after, p, predicted(p));

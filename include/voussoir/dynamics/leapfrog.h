@@ -90,7 +90,6 @@ namespace Voussoir
     Unknowns                           u, Ku;      ///< displacement at this time [m], and K u [N]
     Unknowns                           pair_force; ///< joint forces of the step h [N]
     Unknowns                           gap_before, gap, gap_after; ///< of the steps k - 1, k and k + 1 [m]
-    std::vector<std::size_t>           memory_begin;               ///< of each pair
   };
 } // namespace Voussoir
 

@@ -76,9 +76,11 @@ namespace Voussoir
      * @param tributary_area tributary area [m^2] */
     void add(const JointLaw *law, double tributary_area);
 
+    /** Returns the first history variable of a pair. The law of a pair may be replaced by one with fewer variables. */
+    std::size_t memory_begin(const std::size_t pair) const { return pair == 0 ? 0 : memory_end[pair - 1]; }
+
   private:
     std::size_t n_memory() const { return memory_end.empty() ? 0 : memory_end.back(); }
-    std::size_t memory_begin(const std::size_t pair) const { return pair == 0 ? 0 : memory_end[pair - 1]; }
 
     std::vector<double>      area;       ///< tributary area of each pair [m^2]
     std::vector<std::size_t> memory_end; ///< end of the history variables of each pair
