@@ -184,8 +184,9 @@ class Net:
 
     def covered(self):
         result = set()
-        for scene, idle in self.scenes:
-            active = [x for x in scene.items() if x[0] not in idle and x[0] not in self.inactive(scene)]
+        for scene, idle in self.scenes:  # there are no warnings about defaults
+            inactive = {name for name in self.inactive(scene) if scene[name] == self.choices.default[name]}
+            active = [x for x in scene.items() if x[0] not in idle | inactive]
             result.update(map(frozenset, itertools.combinations(active, 2)))
         return result
 
