@@ -55,7 +55,7 @@ namespace Voussoir
     bool        acts() const { return joints || base; }
   };
 
-  /** A force on the node nearest to a place. */
+  /** A force at a place, see add_point_force(). */
   struct PointLoad
   {
     Vector3 place, force; ///< [m], [N]

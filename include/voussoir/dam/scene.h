@@ -212,7 +212,7 @@ namespace Voussoir
 
     std::vector<std::string> sources; ///< input file and included files
 
-    /** Returns entry and path of the mesh, motion and temperature files. */
+    /** Returns entry and path of all files that the entries name. A resumed run compares their content. */
     std::vector<std::pair<std::string, std::string>> input_files() const;
 
     /** Throws InputError if the output @p file of a command is an input of the scene, or if its directory

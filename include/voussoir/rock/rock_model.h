@@ -22,7 +22,6 @@ namespace Voussoir
     double distance = 0.; ///< distance of nodes[0] from the source [m]; tied nodes: the largest one
   };
 
-  /** A face of the artificial boundary. */
   /** Face of a cell on the artificial boundary, with the rock behind it. */
   struct BoundaryFace
   {
