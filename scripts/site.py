@@ -115,7 +115,7 @@ def configuration(directory, pages):
             "extra_javascript": ["formulas.js", "mathjax/MathJax.js?config=TeX-AMS_CHTML"] if MATHJAX.is_dir() else [],
             "extra_css": ["tables.css"]}
     formulas(pages)
-    (pages / "tables.css").write_text("thead:has(th:empty) { display: none; }\n"
+    (pages / "tables.css").write_text("thead:not(:has(th:not(:empty))) { display: none; }\n"
                                       "div.arithmatex { overflow-x: auto; }\n"
                                       "@media (max-width: 600px) { .md-typeset table:not([class]) :is(th, td) { min-width: 0; padding: .5em; } }\n",
                                       encoding="utf-8")
