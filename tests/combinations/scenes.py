@@ -166,6 +166,10 @@ class Net:
         items = scene.items()
         return {name for name, others in self.idle if others <= items}
 
+    def inactive_defaults(self, scene):
+        """Factors with their default and without effect, about which there is no warning."""
+        return {name for name in self.inactive(scene) if scene[name] == self.choices.default[name]}
+
     def learn_idle(self, scene, facts):
         """Reads the warnings about entries without effect."""
         here = set()
@@ -184,9 +188,9 @@ class Net:
 
     def covered(self):
         result = set()
-        for scene, idle in self.scenes:  # there are no warnings about defaults
-            inactive = {name for name in self.inactive(scene) if scene[name] == self.choices.default[name]}
-            active = [x for x in scene.items() if x[0] not in idle | inactive]
+        for scene, idle in self.scenes:
+            inactive = idle | self.inactive_defaults(scene)
+            active = [x for x in scene.items() if x[0] not in inactive]
             result.update(map(frozenset, itertools.combinations(active, 2)))
         return result
 
@@ -244,13 +248,14 @@ class Net:
 
         def without_effect(trial):
             facts = self.validated(trial)
-            return {*seed} if isinstance(facts, str) else self.learn_idle(trial, facts) & seed.keys()
+            return {*seed} if isinstance(facts, str) else (self.learn_idle(trial, facts) | self.inactive_defaults(trial)) & seed.keys()
         for _ in range(4):
             facts, idle = self.validated(scene), without_effect(scene)
             if isinstance(facts, str) or not idle:
                 break
             reasons = " ".join(warning.partition(" no effect: ")[2] for warning in warnings_of(facts))
-            trials = [{**scene, name: level} for name in self.mentioned(reasons, scene) if name not in seed for level in self.choices.factors[name]]
+            causes = {*self.mentioned(reasons, scene), *(cause for name, others in self.idle if name in idle for cause, _ in others)}
+            trials = [{**scene, name: level} for name in sorted(causes - seed.keys()) for level in self.choices.factors[name]]
             better = [trial for trial in trials if len(without_effect(trial)) < len(idle)]
             if not better:
                 break
