@@ -310,7 +310,8 @@ class Net:
             else:
                 seed = seeds[0]
                 scene = self.plain(dict(seed))
-            facts = self.accepted(scene, dict(seed))
+            plain = self.validated(scene) if len(wanted) <= FEW else ""  # a refused pair may need others
+            facts = self.accepted(scene, dict(seed)) if isinstance(plain, str) else plain
             self.tries[frozenset(seed)] += 1
             if facts:
                 self.scenes.append((scene, self.learn_idle(scene, facts)))
