@@ -97,12 +97,12 @@ def all_checked(case, relations):
 
 
 def page_of(net):
-    """The tables of refused pairs and of three choices together, for the manual, with one row for each message. Messages about a zone
-    that is only in one of the meshes here are left out."""
+    """The tables of refused pairs and of three choices together, for the manual, with one row for each message. Messages about files of
+    this net, and a zone that is only in one of its meshes, are left out."""
     def rows(size):
         found = {}
         for levels, message in net.refused.items():
-            if size == min(3, len(levels)) and "heel" not in message:
+            if size == min(3, len(levels)) and "heel" not in message and str(net.directory) not in message:
                 message = re.sub(r"\(-?[\d.e-]+, -?[\d.e-]+, -?[\d.e-]+\) m", "(x, y, z)", first_sentence(message)).replace("|", "\\|")
                 found.setdefault(message, []).append(", ".join(f"`{name.replace('GRID', '...')} = {level}`" for name, level in sorted(levels)))
         return sorted(f"| {'<br>'.join(sorted(levels))} | {message} |" for message, levels in found.items())

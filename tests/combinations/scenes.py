@@ -87,6 +87,7 @@ class Net:
         # Sets of levels with a message; (factor, other levels with which it has no effect); pairs that follow from these.
         self.refused, self.idle, self.ruled_out = {}, set(), set()
         self.tries = Counter()  # scenes drawn for a pair, and scenes with it that have no solution
+        self.plain_tries = Counter()  # plain scenes of a pair
 
     def write(self, name, entries):
         """A scene file, and the mesh that it requires."""
@@ -298,6 +299,9 @@ class Net:
         """Adds scenes, with their factors without effect, until all pairs are covered, and yields them. The caller may remove the last one: unsolved()."""
         while len(self.scenes) < n_scenes:
             wanted = {pair for pair in self.open_pairs() if self.tries[pair] < 3}
+            is_plain = len(wanted) <= FEW
+            if is_plain:
+                wanted = {pair for pair in self.open_pairs() if self.plain_tries[pair] < 2}
             seeds = self.random.sample(sorted(map(sorted, wanted)), min(8, len(wanted)))
             self.ruled_out |= {frozenset(seed) for seed in seeds if self.is_ruled_out(seed)}
             seeds = [seed for seed in seeds if frozenset(seed) not in self.ruled_out]
@@ -305,12 +309,13 @@ class Net:
                 break
             if not seeds:
                 continue
-            if len(wanted) > FEW:
+            if not is_plain:
                 _, scene, seed = max(((*self.candidate(wanted, seed), seed) for seed in seeds), key=lambda x: x[0])
             else:
                 seed = seeds[0]
                 scene = self.plain(dict(seed))
-            plain = self.validated(scene) if len(wanted) <= FEW else ""  # a refused pair may need others
+                self.plain_tries[frozenset(seed)] += 1
+            plain = self.validated(scene) if is_plain else ""  # a refused pair may need others
             facts = self.accepted(scene, dict(seed)) if isinstance(plain, str) else plain
             self.tries[frozenset(seed)] += 1
             if facts:
