@@ -91,26 +91,20 @@ def commands_page(program):
     return NOTE + "# Commands\n\n" + "".join(f"    {line}".rstrip() + "\n" for line in output(program, "--help").splitlines())
 
 
+def enclosed(text, head, brackets):
+    """The code between the brackets, such as "()", after each match of a pattern."""
+    for match in re.finditer(rf"{head}\s*\{brackets[0]}", text, re.S):
+        depth, end = 1, match.end()
+        for token in re.finditer(rf'"(?:[^"\\]|\\.)*"|[{brackets}]', text[end:]):
+            depth += {brackets[0]: 1, brackets[1]: -1}.get(token[0], 0)
+            if not depth:
+                yield text[end:end + token.start()]
+                break
+
+
 def arguments(text, function):
-    """The code between the parentheses of each call of a function that a pattern describes."""
-    for match in re.finditer(function + r"\(", text):
-        depth, end = 1, match.end()
-        for token in re.finditer(r'"(?:[^"\\]|\\.)*"|[()]', text[end:]):
-            depth += {"(": 1, ")": -1}.get(token[0], 0)
-            if not depth:
-                yield text[end:end + token.start()]
-                break
-
-
-def bodies(text, head):
-    """The code between the braces after each match of a pattern."""
-    for match in re.finditer(head + r"\s*\{", text, re.S):
-        depth, end = 1, match.end()
-        for token in re.finditer(r'"(?:[^"\\]|\\.)*"|[{}]', text[end:]):
-            depth += {"{": 1, "}": -1}.get(token[0], 0)
-            if not depth:
-                yield text[end:end + token.start()]
-                break
+    """The arguments of each call of a function that a pattern describes."""
+    return enclosed(text, function, "()")
 
 
 def message(code):
@@ -154,7 +148,7 @@ def warnings_of(text, is_all):
     codes = [*arguments(text, r"(?:warnings\.push_back|\bwarn)"),
              *(f'"{code}"' for code in re.findall(r'"(?:voussoir: )?warning: ((?:[^"\\]|\\.|"\s*")*)"', text)),
              *re.findall(rf'"(?:voussoir: )?warning: " (?:<<|\+) ({LITERAL});', text)]
-    for body in [text] if is_all else bodies(text, f"(?:{head}|{commented})"):
+    for body in [text] if is_all else enclosed(text, f"(?:{head}|{commented})", "{}"):
         codes += re.findall(rf"return ({LITERAL});", body) + re.findall(rf"\b(?:text|warning)\s*(?:<<|\+?=)\s({LITERAL});", body)
         codes += [code.split(",", 2)[2] for code in arguments(body, "std::snprintf")]
     codes = [re.sub(r"^\s*(?:Warning)?\{[\w:]+,\s*", "", code) for code in codes]

@@ -45,12 +45,13 @@ LONG = .36  # duration of motions that are compared as a whole [s]
 SIZES = {"displacement": 1e-4, "acceleration": 1., "pressure": 1e4, "stress": 1e5}
 
 
-def compare(a, b, limit, renamed=lambda column: (column, 1)):
+def compare(a, b, limit, renamed=lambda column: (column, 1), of_stress=1):
     """Throws Failed unless the results differ by at most the limit times the largest value of their kind. renamed: name and sign of a column in the
-    second run, or None."""
+    second run, or None. of_stress: factor of the limit for stresses."""
     one, two, worst = columns(a), columns(b), (0., "")
     for kind in {kind for kind, _ in one}:
         size = max(SIZES[kind], max(abs(x) for key, values in one.items() if key[0] == kind for x in values) * (1 if kind == "displacement" else 10))
+        size *= of_stress if kind == "stress" else 1
         for (_, column), values in (item for item in one.items() if item[0][0] == kind):
             to, sign = renamed(column)
             if to is None:
@@ -220,7 +221,7 @@ def without_effect(case):
         raise Omitted("all entries have an effect")
     file = case.net.write(f"scene-{case.number}-active", {e: v for e, v in case.entries.items() if e not in idle})
     active = case.run("active", file=file)
-    if case.scene["Foundation/Model"] == "massless":  # dam and rock are one system, or not, for a reason that can be without effect otherwise
+    if case.scene["Foundation/Model"] == "massless" and case.scene["Motion/Source"] == "none":  # the idle scheme decides on one system or two
         return compare(case.first, active, 1e-9)
     return same_bits(case.first, active, ("warnings",))
 
@@ -247,8 +248,8 @@ def shuffled(case):
         mesh["nodes"], mesh["elements"] = nodes, [(kind, tag, [order[n] for n in corners]) for kind, tag, corners in mesh["elements"]]
         random.Random(case.number).shuffle(mesh["elements"])
 
-    # The static iterations between dam and rock end at 1e-9; where a pair hardly slips, the direction of its friction is less exact.
-    return compare(case.first, case.own_mesh("shuffled", shuffle), 1e-5 if case.scene["Foundation/Model"] == "rock" else 1e-6)
+    # On rock, stresses that are corrected by the tractions of lift joints can change by 4e-5 of themselves; the cause is not known.
+    return compare(case.first, case.own_mesh("shuffled", shuffle), 1e-6, of_stress=10 if case.scene["Foundation/Model"] == "rock" else 1)
 
 
 def mirrored(case):
