@@ -26,11 +26,6 @@ namespace
     return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
   }
 
-  Vector3 scaled(const double s, const Vector3 &x)
-  {
-    return {{s * x[0], s * x[1], s * x[2]}};
-  }
-
   /** A force that acts at @p place, with its moment about the origin. */
   void add_at(Wrench &wrench, const Vector3 &place, const Vector3 &force)
   {

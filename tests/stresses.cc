@@ -40,11 +40,6 @@ namespace
     return result;
   }
 
-  Vector3 scaled(const double factor, const Vector3 &v)
-  {
-    return {{factor * v[0], factor * v[1], factor * v[2]}};
-  }
-
   Vector3 traction(const Stress &s, const Vector3 &n)
   {
     return {{s[0] * n[0] + s[3] * n[1] + s[5] * n[2], s[3] * n[0] + s[1] * n[1] + s[4] * n[2],
@@ -413,11 +408,11 @@ namespace
 
   /** A joint that is not normal to the upstream face, with the pressures p on the face and q in the joint.
    * Shear stresses are equal on the edge: t = -q n + (q - p) c/(1 - c^2) (m - c n) in the joint, with c =
-   * m.n. */
+   * m.n. At the crest the joint has two edges that are not orthogonal. */
   void skew_joint()
   {
     const double p = 1e6, q = 2e6;
-    const auto   skew = [](const Vector3 &x) { return Vector3{{x[0] + .6 * x[1], x[1], x[2]}}; };
+    const auto   skew = [](const Vector3 &x) { return Vector3{{x[0] + .6 * x[1] + .5 * x[2], x[1], x[2]}}; };
     SolidModel   model(open_joints(Grids::wall({{thick, wide, tall}}, {{2, 4, 6}}, 2, skew)), 1);
     Structure    structure = assemble_structure(model, {Material()}, true);
     structure.pairs = find_pairs(model, 1);
@@ -428,10 +423,15 @@ namespace
                                          [&](const int surface, double, const Vector3 &n)
                                          { return scaled(surface == PhysicalId::upstream ? -p : 0., n); });
     const std::vector<Vector3> at = tractions.at(force);
-    const Vector3              m = {{-1. / std::hypot(1., .6), .6 / std::hypot(1., .6), 0.}};
-    double                     worst = 0.;
+    const Vector3              m = scaled(1. / std::hypot(1., .6, .5), {{-1., .6, .5}});
+    double                     worst = 0., unequal = 0.;
     unsigned int               n_edge = 0;
     for (std::size_t f = 0; f < at.size(); ++f)
+    {
+      for (std::size_t g = 0; g < at.size(); ++g)
+        if (const NodeFace &a = tractions.faces[f], &b = tractions.faces[g];
+            a.node == b.node && is_joint_side(a.surface) && !is_joint_side(b.surface))
+          unequal = std::max(unequal, std::abs(dot(at[f], b.normal) - dot(at[g], a.normal)));
       if (const NodeFace &face = tractions.faces[f]; is_joint_side(face.surface) &&
                                                      model.on_surface(face.node, PhysicalId::upstream) &&
                                                      model.points[face.node][2] < tall - 1.)
@@ -443,6 +443,8 @@ namespace
         worst = std::max(worst, norm(at[f] - exact));
         ++n_edge;
       }
+    }
+    below("shear stresses on both sides of edges and corners, of q", unequal / q, 1e-12);
     expect(n_edge == 2 * 5, "nodes of both sides on the edge");
     below("joint that is not normal to the face: its traction on the edge, of q", worst / q, 1e-12);
   }

@@ -11,11 +11,6 @@ namespace Voussoir
 
   namespace
   {
-    Vector3 scaled(const double factor, const Vector3 &v)
-    {
-      return {{factor * v[0], factor * v[1], factor * v[2]}};
-    }
-
     /** Pressure of water with this surface [m] and unit weight [N/m^3]. */
     Vector3 of_water(const double level, const double weight, const double z, const Vector3 &normal)
     {

@@ -14,6 +14,12 @@ namespace Voussoir
       return {{s[0] * n[0] + s[3] * n[1] + s[5] * n[2], s[3] * n[0] + s[1] * n[1] + s[4] * n[2],
                s[5] * n[0] + s[4] * n[1] + s[2] * n[2]}};
     }
+
+    Matrix3 square_of(const Vector3 &v) // v v^T
+    {
+      return Voussoir::times(Matrix3{{v[0], 0., 0., v[1], 0., 0., v[2], 0., 0.}},
+                             Matrix3{{v[0], v[1], v[2]}});
+    }
   } // namespace
 
   Unknowns mean_acceleration(const Unknowns &v_before, const Unknowns &v, const double dt,
@@ -55,17 +61,30 @@ namespace Voussoir
       }
       faces.push_back(face);
       known.push_back(pressed);
-      const bool is_wet = face.surface == PhysicalId::upstream && !moving_water.empty();
-      water_mass.push_back(is_wet ? moving_water[face.node] : 0.);
-      if (water_mass.back() > 0. && model.equation[face.node] != rigid_ground)
-        wet_faces.push_back({static_cast<unsigned int>(faces.size() - 1), model.equation[face.node]});
+      if (face.surface == PhysicalId::upstream && !moving_water.empty() && moving_water[face.node] > 0. &&
+          model.equation[face.node] != rigid_ground)
+        wet_faces.push_back({static_cast<unsigned int>(faces.size() - 1), model.equation[face.node],
+                             moving_water[face.node]});
       initial.push_back(initial_stress.empty() ? Vector3{} : times(initial_stress[face.node], face.normal));
     }
     for (unsigned int f = 0; f < faces.size(); ++f)
+    {
+      const Vector3    &n = faces[f].normal;
+      const std::size_t first = edges.size();
+      Matrix3           gram = square_of(n);
       for (const unsigned int other : {f - 2, f - 1, f + 1, f + 2})
         if (pair[f] != rigid_ground && other < faces.size() && faces[other].node == faces[f].node &&
-            pair[other] == rigid_ground && std::abs(dot(faces[f].normal, faces[other].normal)) < .9)
-          edges.push_back({f, other});
+            pair[other] == rigid_ground && std::abs(dot(n, faces[other].normal)) < .9)
+        {
+          const Vector3 d = cross(cross(n, faces[other].normal), n); // in the plane of the joint
+          gram = sum(gram, 1., square_of(d));
+          edges.push_back({f, other, d});
+        }
+      if (const double t = gram[0] + gram[4] + gram[8] - 1.; determinant(gram) < .02 * t * t) // parallel edges
+        gram = {{t, 0., 0., 0., t, 0., 0., 0., t}};
+      for (std::size_t e = first; e < edges.size(); ++e)
+        edges[e].gain = inverse(gram) * edges[e].gain;
+    }
   }
 
   std::vector<Vector3> Tractions::at(const Unknowns &force, const Unknowns &acceleration,
@@ -82,7 +101,7 @@ namespace Voussoir
         press(f, pressure[faces[f].node]);
     for (const WetFace &wet : wet_faces)
       if (!acceleration.empty())
-        press(wet.face, water_mass[wet.face] * dot(get(acceleration, wet.free_node), faces[wet.face].normal));
+        press(wet.face, wet.mass * dot(get(acceleration, wet.free_node), faces[wet.face].normal));
     add_joints<double>([&](const std::size_t k) { return force[k]; }, traction);
     return traction;
   }
@@ -104,7 +123,7 @@ namespace Voussoir
       for (std::size_t w = 0; acceleration != nullptr && w < wet_faces.size(); ++w)
       {
         const std::size_t f = wet_faces[w].face;
-        const Numbers     pressure = static_cast<float>(water_mass[f]) * load(acceleration, w);
+        const Numbers     pressure = static_cast<float>(wet_faces[w].mass) * load(acceleration, w);
         for (unsigned int c = 0; c < 3; ++c)
           traction[f][c] -= pressure * static_cast<float>(faces[f].normal[c]);
       }
@@ -130,25 +149,21 @@ namespace Voussoir
           traction[f][c] =
               side * (Scalar(frame[0][c]) * t[0] + Scalar(frame[1][c]) * t[1] + Scalar(frame[2][c]) * t[2]);
       }
-    constexpr unsigned int n_passes = 6; // at corners two nearly orthogonal edges of a joint meet
-    for (unsigned int i = 0; i < n_passes; ++i)
-      for (const Edge &edge : edges)
-        meet<Scalar>(edge, traction);
+    std::array<T, 3> before{};
+    for (std::size_t e = 0; e < edges.size(); ++e)
+    {
+      const auto &[joint, other, gain] = edges[e];
+      if (e == 0 || edges[e - 1].joint != joint)
+        before = traction[joint];
+      T miss = {};
+      for (unsigned int c = 0; c < 3; ++c)
+        miss +=
+            Scalar(faces[joint].normal[c]) * traction[other][c] - Scalar(faces[other].normal[c]) * before[c];
+      for (unsigned int c = 0; c < 3; ++c)
+        traction[joint][c] += miss * static_cast<Scalar>(gain[c]);
+    }
     for (std::size_t f = 0; f < traction.size(); ++f)
       for (unsigned int c = 0; c < 3; ++c)
         traction[f][c] -= static_cast<Scalar>(initial[f][c]);
-  }
-
-  /** Equal shear stresses at an edge, t_1 n_2 = t_2 n_1: changes the traction of the joint face. */
-  template <class Scalar, class T>
-  void Tractions::meet(const Edge &edge, std::vector<std::array<T, 3>> &traction) const
-  {
-    const Vector3 &n = faces[edge.joint].normal, &m = faces[edge.other].normal;
-    const double   cosine = dot(n, m);
-    T              miss = {};
-    for (unsigned int c = 0; c < 3; ++c)
-      miss += Scalar(n[c]) * traction[edge.other][c] - Scalar(m[c]) * traction[edge.joint][c];
-    for (unsigned int c = 0; c < 3; ++c)
-      traction[edge.joint][c] += miss * static_cast<Scalar>((m[c] - cosine * n[c]) / (1. - cosine * cosine));
   }
 } // namespace Voussoir

@@ -9,13 +9,6 @@ namespace Voussoir
   {
     constexpr double equal_modes = 1e-12; ///< difference of margins within round-off [-]
 
-    /** Adds @p factor times @p x to @p y. */
-    void add_scaled(Vector3 &y, const double factor, const Vector3 &x)
-    {
-      for (unsigned int c = 0; c < 3; ++c)
-        y[c] += factor * x[c];
-    }
-
     /** Returns the state with the planes of @p contact, admissible or not, without resistance and safety.
      * @param total sum of all forces, with uplift [N] */
     WedgeState state_in(const std::vector<WedgePlane> &planes, const Vector3 &total,
@@ -35,7 +28,7 @@ namespace Voussoir
       for (unsigned int i = 0; i < planes.size(); ++i)
       {
         state.normal_force.push_back(contact[i] ? compression[i] : 0.);
-        add_scaled(state.driving, state.normal_force[i], planes[i].normal);
+        add(state.driving, scaled(state.normal_force[i], planes[i].normal));
       }
       return state;
     }
@@ -66,7 +59,7 @@ namespace Voussoir
     const unsigned int n = planes.size();
     Vector3            total = force;
     for (const WedgePlane &plane : planes)
-      add_scaled(total, plane.uplift * plane.area, plane.normal);
+      add(total, scaled(plane.uplift * plane.area, plane.normal));
     WedgeState best;
     double     largest = -std::numeric_limits<double>::infinity();
     for (unsigned int n_contacts = n + 1; n_contacts-- > 0;)

@@ -102,8 +102,7 @@ namespace Voussoir
 
   Vector3 Integrator::opening_and_slip(const unsigned int pair) const
   {
-    const Vector3 jump = structure.jump(structure.pairs[pair], now.u), r = get(reference, pair);
-    return {{jump[0] - r[0], jump[1] - r[1], jump[2] - r[2]}};
+    return structure.jump(structure.pairs[pair], now.u) - get(reference, pair);
   }
 
   double Integrator::energy_error() const

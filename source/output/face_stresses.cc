@@ -28,15 +28,15 @@ namespace Voussoir
       std::copy(std::begin(all), std::end(all), result.begin());
       return result;
     }
-
-    NodeOnFace directions_at(const unsigned int node, const int surface, const Vector3 &area)
-    {
-      const Vector3 n = unit(area);
-      // z x n; a face is horizontal if its slope is below 1e-6.
-      const Vector3 arch = length(n[0], n[1]) > 1e-6 ? unit({{-n[1], n[0], 0.}}) : Vector3{{0., 1., 0.}};
-      return {node, surface, factors(arch), factors(cross(n, arch))};
-    }
   } // namespace
+
+  NodeOnFace directions_at(const NodeFace &face)
+  {
+    const Vector3 n = unit(face.normal);
+    // z x n; a face is horizontal if its slope is below 1e-6.
+    const Vector3 arch = length(n[0], n[1]) > 1e-6 ? unit({{-n[1], n[0], 0.}}) : Vector3{{0., 1., 0.}};
+    return {face.node, face.surface, factors(arch), factors(cross(n, arch))};
+  }
 
   const char *FaceDirections::name(const unsigned int k)
   {
@@ -60,7 +60,7 @@ namespace Voussoir
                 });
       for (const auto &[node, sum] : area)
         if (model.on_surface(node, surface))
-          nodes.push_back(directions_at(node, surface, sum));
+          nodes.push_back(directions_at({node, surface, sum}));
     }
     std::stable_sort(nodes.begin(), nodes.end(),
                      [](const NodeOnFace &a, const NodeOnFace &b) { return a.node < b.node; });

@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <voussoir/dam/tractions.h>
+#include <voussoir/output/face_stresses.h>
 #include <voussoir/output/spectrum_fields.h>
-
-#include <cmath>
 
 namespace Voussoir
 {
   namespace
   {
-    /** Returns n . sigma . n for a unit vector n. */
-    double normal_stress(const Stress &s, const Vector3 &n)
-    {
-      return s[0] * n[0] * n[0] + s[1] * n[1] * n[1] + s[2] * n[2] * n[2] +
-             2. * (s[3] * n[0] * n[1] + s[4] * n[1] * n[2] + s[5] * n[2] * n[0]);
-    }
-
     /** Returns the stresses of all parts, per node of the model. */
     std::vector<std::vector<Stress>> stresses_of(const Dam &dam, const SpectrumResponse &response)
     {
@@ -67,19 +59,11 @@ namespace Voussoir
     fields.arch.assign(n, 0.f);
     fields.cantilever.assign(n, 0.f);
     for (const NodeFace &face : faces_at_nodes(*dam.model))
-    {
-      const Vector3 &m = face.normal;
-      const double   horizontal = std::hypot(m[0], m[1]);
-      if ((face.surface != PhysicalId::upstream && face.surface != PhysicalId::downstream) ||
-          horizontal < 1e-6)
-        continue;
-      const Vector3 arch{{-m[1] / horizontal, m[0] / horizontal, 0.}};
-      const Vector3 up{{-m[2] * arch[1], m[2] * arch[0], m[0] * arch[1] - m[1] * arch[0]}}; // normal x arch
-      fields.arch[face.node] =
-          combine_at(response, stress, face.node, [&](const Stress &s) { return normal_stress(s, arch); });
-      fields.cantilever[face.node] =
-          combine_at(response, stress, face.node, [&](const Stress &s) { return normal_stress(s, up); });
-    }
+      if (face.surface == PhysicalId::upstream || face.surface == PhysicalId::downstream)
+        for (const unsigned int k : {0, 1})
+          (k == 0 ? fields.arch : fields.cantilever)[face.node] =
+              combine_at(response, stress, face.node,
+                         [at = directions_at(face), k](const Stress &s) { return at.stresses(s)[k]; });
     return fields;
   }
 } // namespace Voussoir

@@ -89,6 +89,11 @@ namespace Voussoir
     return {{a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]}};
   }
 
+  inline Vector3 scaled(const double factor, const Vector3 &x)
+  {
+    return {{factor * x[0], factor * x[1], factor * x[2]}};
+  }
+
   /** Adds @p x to @p y. */
   inline void add(Vector3 &y, const Vector3 &x)
   {

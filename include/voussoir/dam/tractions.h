@@ -27,6 +27,9 @@ namespace Voussoir
    *  - pair forces divided by the pair areas, and the water pressure, on the joint faces,
    *  - zero on all other faces.
    *
+   * At an edge of a joint face, its traction changes by the least shear that gives t_1 n_2 = t_2 n_1 there, in the
+   * sense of least squares if several edges meet.
+   *
    * Tied joints have no faces. Pairs on several planes are excluded: the shares are unknown. */
   class Tractions
   {
@@ -65,6 +68,7 @@ namespace Voussoir
     struct WetFace
     {
       unsigned int face, free_node;
+      double       mass; ///< added mass [kg/m^2]
     };
     std::vector<WetFace> wet_faces; ///< see water_mass
 
@@ -72,22 +76,19 @@ namespace Voussoir
     struct Edge
     {
       unsigned int joint, other; ///< indices of the faces
+      Vector3      gain;         ///< change of the joint's traction by the miss of t_1 n_2 = t_2 n_1
     };
     /** Adds joint forces, and subtracts the initial stresses. */
     template <class Scalar, class Force, class T>
     void add_joints(const Force &force, std::vector<std::array<T, 3>> &traction) const;
-
-    template <class Scalar, class T>
-    void meet(const Edge &edge, std::vector<std::array<T, 3>> &traction) const;
 
     const Structure          &structure;
     JointTractions            joints;
     std::vector<Edge>         edges; ///< common edges of a joint face and another face
     std::vector<unsigned int> pair;  ///< of each face; rigid_ground: no pair
     std::vector<double>       joint_water;
-    std::vector<Vector3>      known;      ///< of the static loads
-    std::vector<double>       water_mass; ///< added mass of each face [kg/m^2]
-    std::vector<Vector3>      initial;    ///< tractions of the initial stresses [Pa]
+    std::vector<Vector3>      known;   ///< of the static loads
+    std::vector<Vector3>      initial; ///< tractions of the initial stresses [Pa]
   };
 } // namespace Voussoir
 

@@ -9,6 +9,9 @@
 
 namespace Voussoir
 {
+  /** Returns the directions of the stresses on a face, whose normal need not have the length 1. */
+  NodeOnFace directions_at(const NodeFace &face);
+
   /** Normal stresses in fixed directions at the nodes of the upstream and the downstream face: arch,
    * cantilever and vertical stress, as in USACE EM 1110-2-2201 (Arch Dam Design, 1994, chapters 6 and 7).
    * Let n be the outward unit normal of the face and z the upward unit vector.
