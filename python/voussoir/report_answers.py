@@ -23,7 +23,7 @@ CLOSED = 0.01  # of its largest opening: a joint below is closed
 
 def strength_of(run):
     """Dynamic tensile strength [Pa], and where it is from."""
-    for name in ("Limits/Tensile strength", "Output/Tensile strength"):
+    for name in ("Output/Tensile strength", "Limits/Tensile strength"):
         if (value := run.value(name)) > 0.:
             return value, name
     return USUAL_STRENGTH, ""
