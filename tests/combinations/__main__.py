@@ -15,7 +15,7 @@ or the program accepts a pair that is refused in the manual.
 --list-refused  writes the refused pairs as a page of the manual
 --draw          draws and validates the scenes only
 --relations N   relations of a scene that need other runs (default 3)
---resume        goes on with the array in this directory; the scenes that it has are not checked again
+--resume        goes on with the array in this directory; the scenes that have been checked are not checked again
 --only K        the scene K of the last array in this directory only, with all relations
 """
 
@@ -38,6 +38,7 @@ from relations import ALWAYS, RARE, RELATIONS, Case  # noqa: E402
 from scenes import Failed, Net, Omitted, Refused, cpu_time, first_sentence  # noqa: E402
 
 SLOW = 20.  # first run of a scene, above which it has fewer relations [s]
+DRAWN, CHECKED = "scenes.txt", "checked"  # file, and mark of a scene in it
 PAGE = HERE.parent.parent / "doc" / "generated" / "refused_pairs.md"
 
 
@@ -93,7 +94,14 @@ def all_checked(case, relations):
     rows = [checked(case, relation) for relation in relations]
     print(f"    scene {case.number}: {len(rows)} checks, {time.time() - begin:.0f} s:",
           ", ".join(f"{row[1]} {row[3]:.0f}" for row in rows if row[3] >= 10), flush=True)
+    record(case.net, case.number, CHECKED)
     return rows
+
+
+def record(net, number, what):
+    """Writes a line for this scene: what was drawn, None if it has no solution, or CHECKED after its checks."""
+    with (net.directory / DRAWN).open("a") as file:
+        print((number, what), file=file)
 
 
 def page_of(net):
@@ -115,18 +123,19 @@ def page_of(net):
 
 def drawn_before(file, number):
     """The scene with this number, as drawn by the last run; a scene may depend on whether those before it have a solution."""
-    found = [row for row in map(ast.literal_eval, file.read_text().splitlines() if file.exists() else ()) if row[0] == number and row[1]]
+    found = [row for row in map(ast.literal_eval, file.read_text().splitlines() if file.exists() else ()) if row[0] == number and isinstance(row[1], tuple)]
     return found[-1:] or sys.exit(f"combinations: the last run in {file.parent} drew no scene {number}.")
 
 
 def resumed(net, drawn, page):
-    """Number of the scenes in the directory. Their pairs are covered, unless a scene has no solution; refused pairs are those of the list."""
+    """Number of the scenes in the directory. Pairs of checked scenes are covered, unless a scene has no solution; refused pairs are those of the
+    list."""
     if page:
         net.read_page(page, math.inf)
     rows = [ast.literal_eval(line) for line in drawn.read_text().splitlines()]
-    without = {number for number, scene in rows if scene is None}
+    without, done = ({number for number, scene in rows if scene == mark} for mark in (None, CHECKED))
     for number, scene in rows:
-        facts = net.validated(scene[0]) if scene else ""
+        facts = net.validated(scene[0]) if isinstance(scene, tuple) and number in without | done else ""
         if not isinstance(facts, str):
             net.scenes.append((scene[0], net.learn_idle(scene[0], facts)))
             if number in without:
@@ -155,7 +164,7 @@ def main():
         shutil.rmtree(directory, ignore_errors=True)
     directory.mkdir(parents=True, exist_ok=True)
     written_files(directory)
-    net, begin, drawn = Net(directory, options.seed), time.time(), directory / "scenes.txt"
+    net, begin, drawn = Net(directory, options.seed), time.time(), directory / DRAWN
     print(f"{len(net.choices.factors)} factors, {len(net.levels)} levels, {len(net.pairs)} pairs, seed {options.seed}", flush=True)
     accepted = net.read_page(PAGE, 10) if options.tenth else []
     met, checks, rows = {relation: set() for relation in RELATIONS}, [], []
@@ -165,8 +174,7 @@ def main():
         for number, (scene, idle) in array:
             if options.list_refused:
                 options.list_refused.write_text(page_of(net))
-            with drawn.open("a") as file:
-                print((number, (scene, idle)), file=file)
+            record(net, number, (scene, idle))
             if options.draw:
                 continue
             case, start = Case(net, number, scene), time.time()
@@ -178,8 +186,7 @@ def main():
                 checks.append(pool.submit(all_checked, case, relations))
             elif rows[-1][2] != "failed":
                 net.unsolved()
-                with drawn.open("a") as file:
-                    print((number, None), file=file)
+                record(net, number, None)
         rows += [row for check in checks for row in check.result()]
     if options.list_refused:
         options.list_refused.write_text(page_of(net))
