@@ -178,7 +178,7 @@ namespace Columns
   {
     JointLaws laws;
     for (unsigned int j = 0; j < structure.n_joints; ++j)
-      laws.of_joint.push_back(make_joint_law(name, friction, equations_from_name(equations)));
+      laws.of_joint.push_back(make_joint_law(name, LawParameters(friction, equations_from_name(equations))));
     laws.assign(structure);
     return laws;
   }

@@ -58,7 +58,7 @@ namespace
     const auto            put = [&](const std::string &name, const std::string &equations, const double mu)
     {
       list.push_back({name + " " + equations + (name == "FJA" ? ", mu " + text(mu) : ""),
-                      make_joint_law(name, mu, equations_from_name(equations)), 1., mu});
+                      make_joint_law(name, LawParameters(mu, equations_from_name(equations))), 1., mu});
     };
     put("tied", "alart-curnier", .7);
     put("FJB", "alart-curnier", .7);
@@ -71,7 +71,8 @@ namespace
         {
           k.seat_compliance = seat;
           list.push_back({name_of(k) + ", face " + text(mu) + (seat > 0. ? ", seat" : ""),
-                          make_joint_law("KSM", mu, Equations::alart_curnier, k), k.height, mu, k});
+                          make_joint_law("KSM", LawParameters(mu, Equations::alart_curnier, k)), k.height, mu,
+                          k});
         }
     return list;
   }
@@ -309,8 +310,8 @@ namespace
           KeyParameters scaled = k;
           scaled.height *= L;
           scaled.clearance *= L;
-          const auto law = make_joint_law("KSM", .6, Equations::alart_curnier, k),
-                     other = make_joint_law("KSM", .6, Equations::alart_curnier, scaled);
+          const auto law = make_joint_law("KSM", LawParameters(.6, Equations::alart_curnier, k)),
+                     other = make_joint_law("KSM", LawParameters(.6, Equations::alart_curnier, scaled));
           const auto times = [](const double s, const Vector3 &x) -> Vector3 {
             return {{s * x[0], s * x[1], s * x[2]}};
           };
@@ -345,7 +346,8 @@ namespace
     double between_forms = 0., to_siconos = 0.;
     for (const double mu : {0., .3, 1., 3.})
     {
-      const auto law = make_joint_law("FJA", mu), paper = make_joint_law("FJA", mu, Equations::paper);
+      const auto law = make_joint_law("FJA", mu),
+                 paper = make_joint_law("FJA", LawParameters(mu, Equations::paper));
       for (unsigned int trial = 0; trial < 4000; ++trial)
       {
         const Vector3 r = random_vector(1.), gap = random_vector(1.), start = random_start(trial);
@@ -367,7 +369,8 @@ namespace
     for (const double mu : {0., .4, 1.2})
     {
       const auto flat = make_joint_law("FJA", mu),
-                 law = make_joint_law("KSM", mu, Equations::alart_curnier, keys(0., .01, 30., "both", .5));
+                 law = make_joint_law(
+                     "KSM", LawParameters(mu, Equations::alart_curnier, keys(0., .01, 30., "both", .5)));
       for (unsigned int trial = 0; trial < 3000; ++trial)
       {
         const Vector3 start = random_start(trial), force = random_vector(1.),
@@ -396,7 +399,8 @@ namespace
   void test_rectangular()
   {
     const auto FJB = make_joint_law("FJB", 0.),
-               law = make_joint_law("KSM", 0., Equations::alart_curnier, keys(.7, 0., 0., "both", 0.));
+               law = make_joint_law(
+                   "KSM", LawParameters(0., Equations::alart_curnier, keys(.7, 0., 0., "both", 0.)));
     double worst = 0., slip = 0.;
     for (unsigned int trial = 0; trial < 5000; ++trial)
     {
@@ -419,7 +423,7 @@ namespace
     for (const KeyParameters &k : {keys(.2, 0., 0., "both", 0.), keys(.2, 0., 0., "both", .5),
                                    keys(.2, .005, 0., "both", 0.), keys(.2, .005, 0., "radial", .5)})
     {
-      const auto law = make_joint_law("KSM", .8, Equations::alart_curnier, k);
+      const auto law = make_joint_law("KSM", LawParameters(.8, Equations::alart_curnier, k));
       for (unsigned int trial = 0; trial < 2000; ++trial)
       {
         const double  rho = 1e11;
@@ -452,7 +456,7 @@ namespace
     {
       KeyParameters k = parameters;
       k.friction = 0.;
-      const auto   law = make_joint_law("KSM", 0., Equations::alart_curnier, k);
+      const auto   law = make_joint_law("KSM", LawParameters(0., Equations::alart_curnier, k));
       const double a = k.flank_angle * pi / 180., s = std::sin(a), c = std::cos(a);
       const auto   least = [&](const Vector3 &g) // of the distances to all surfaces
       {
@@ -489,7 +493,7 @@ namespace
   void test_kinematics()
   {
     const auto make = [](const KeyParameters &k)
-    { return make_joint_law("KSM", 0., Equations::alart_curnier, k); };
+    { return make_joint_law("KSM", LawParameters(0., Equations::alart_curnier, k)); };
     double play = 0., dilation = 0.;
     for (const double angle : {0., 15., 30., 45., 60., 80.})
       for (const double clearance : {0., .002})
@@ -524,7 +528,7 @@ namespace
       for (const double friction : {0., .5})
       {
         const KeyParameters k = keys(.2, .001, angle, "both", .3);
-        const auto          law = make_joint_law("KSM", friction, Equations::alart_curnier, k);
+        const auto          law = make_joint_law("KSM", LawParameters(friction, Equations::alart_curnier, k));
         const Matrix3       H = random_flexibility();
         for (const double slip : {.0, .6, -.9})
         {
@@ -557,9 +561,9 @@ namespace
       k.height = .7;
       k.flank_angle = angle;
       const double mu = .8;
-      const auto   law = make_joint_law("KSM", mu, Equations::alart_curnier, k);
+      const auto   law = make_joint_law("KSM", LawParameters(mu, Equations::alart_curnier, k));
       k.friction = mu;
-      const auto   same = make_joint_law("KSM", mu, Equations::alart_curnier, k);
+      const auto   same = make_joint_law("KSM", LawParameters(mu, Equations::alart_curnier, k));
       double       difference = 0.;
       unsigned int not_solved = 0;
       for (unsigned int trial = 0; trial < 2000; ++trial)
@@ -583,7 +587,8 @@ namespace
       std::string message;
       try
       {
-        make_joint_law("KSM", .8, Equations::alart_curnier, keys(.2, 0., 0., "both", friction));
+        make_joint_law("KSM",
+                       LawParameters(.8, Equations::alart_curnier, keys(.2, 0., 0., "both", friction)));
       }
       catch (const InputError &error)
       {
@@ -600,7 +605,7 @@ namespace
     KeyParameters k = keys(.2, .001, 0., "radial", .5);
     k.seat_compliance = 1e-10;
     const double area = 3.;
-    const auto   law = make_joint_law("KSM", 0., Equations::alart_curnier, k);
+    const auto   law = make_joint_law("KSM", LawParameters(0., Equations::alart_curnier, k));
     double       memory[6] = {};
     PairHistory  past;
     past.area = area;
@@ -664,7 +669,8 @@ namespace
     PairHistory               past;
 
     LedKey(const KeyParameters &k, const double friction)
-        : law(make_joint_law("KSM", friction, Equations::alart_curnier, k)), memory(law->n_memory(), 0.)
+        : law(make_joint_law("KSM", LawParameters(friction, Equations::alart_curnier, k))),
+          memory(law->n_memory(), 0.)
     {
       past.memory = memory.data();
     }
@@ -822,7 +828,7 @@ namespace
   {
     JointLaws laws;
     for (unsigned int j = 0; j < structure.n_joints; ++j)
-      laws.of_joint.push_back(make_joint_law(name, mu, Equations::alart_curnier, k));
+      laws.of_joint.push_back(make_joint_law(name, LawParameters(mu, Equations::alart_curnier, k)));
     laws.assign(structure);
     return laws;
   }

@@ -178,7 +178,7 @@ namespace
     for (const double mu : p.mu)
     {
       if (laws.count(mu) == 0)
-        laws[mu] = make_joint_law("FJA", mu, equations_from_name(equations));
+        laws[mu] = make_joint_law("FJA", LawParameters(mu, equations_from_name(equations)));
       law.push_back(laws[mu].get());
     }
     std::unique_ptr<ContactOperator> W;

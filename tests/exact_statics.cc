@@ -9,7 +9,7 @@ namespace
 {
   void test_derivatives(const std::string &name, const std::string &equations)
   {
-    const auto   law = make_joint_law(name, .7, equations_from_name(equations));
+    const auto   law = make_joint_law(name, LawParameters(.7, equations_from_name(equations)));
     double       worst = 0.;
     int          states[3] = {0, 0, 0};
     const double h = 1e-6;

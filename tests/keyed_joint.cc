@@ -65,7 +65,8 @@ namespace
     Press(const HexMesh &mesh, const std::string &law, const double face_friction, const KeyParameters &keys)
         : model(mesh, 1), structure(with_joints(model, {Material()}))
     {
-      laws.of_joint.push_back(make_joint_law(law, face_friction, Equations::alart_curnier, keys));
+      laws.of_joint.push_back(
+          make_joint_law(law, LawParameters(face_friction, Equations::alart_curnier, keys)));
       laws.assign(structure);
       system = std::make_unique<JointSystem>(structure, laws, tight(), StepOperator());
       force.assign(3 * structure.pairs.size(), 0.);

@@ -378,7 +378,7 @@ namespace
     for (const double friction : {.2, -1.})
     {
       keys.friction = friction;
-      const auto    law = make_joint_law("KSM", .6, Equations::alart_curnier, keys);
+      const auto    law = make_joint_law("KSM", LawParameters(.6, Equations::alart_curnier, keys));
       const Vector3 f = law->solve({{1., 0., 0., 0., 1., 0., 0., 0., 1.}}, {{.5, 1., .5}}, {});
       expect_close(std::abs(f[1]), 1., 1e-9, "force of the flank");
       expect_close(std::hypot(f[0], f[2]), friction < 0. ? .6 : friction, 1e-9, "friction of the flank");

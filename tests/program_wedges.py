@@ -17,7 +17,8 @@ PLANES = {  # wedge: planes as (name, point, dip, dip direction, area, tan(phi),
     "whole": ([("under", (0, 0, -50), 0, 0, 3e4, 1., 0., 1e5)], 2e6, 2600),
     "right": ([("middle", (0, 0, 0), 90, -90, 2e3, .5, 0., 0.), ("foot", (0, 0, -30), 35, 20, 5e3, .7, 3e5, 2e5)], 8e5, 2600),
     "left": ([("middle", (0, 0, 0), 90, 90, 2e3, .5, 0., 0.), ("foot", (0, 0, -30), 25, -30, 5e3, .6, 2e5, 2e5),
-              ("back", (-80, 0, 0), 80, 0, 1e3, .5, 0., 4e5)], 6e5, 2500)}
+              ("back", (-80, 0, 0), 80, 0, 1e3, .5, 0., 4e5)], 6e5, 2500),
+    "bounded": ([("under", (0, 0, -50), 0, 0, 3e4, 1., 0., 1e5), ("end", (0, 0, 0), 90, 90, 0., 0., 0., 0.)], 2e6, 2600)}
 RUNS = {"rigid": [], "tied": ["Joints/Model=tied"],
         "massless": ["Foundation/Model=massless", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60"],
         "rock": ["Foundation/Model=rock", "Mesh/Arch210/Rock/Enabled=true", "Mesh/Arch210/Rock/Element size=60", "Motion/Time step=0.002"]}
@@ -61,7 +62,7 @@ def solved(rows, right):
 
 def safety(wedge, dam, acceleration, mode, gravity=9.81):
     """Safety in this mode, and the least of its compressions and opening forces, from the numbers of the table."""
-    planes, volume, density = PLANES[wedge]
+    planes, volume, density = [plane for plane in PLANES[wedge][0] if plane[4] > 0.], *PLANES[wedge][1:]
     normals = [normal(*plane[2:4]) for plane in planes]
     mass = volume * density
     total = [f - mass * a for f, a in zip(dam, acceleration)]
@@ -89,6 +90,7 @@ def check_run(name):
         size = max(map(abs, total + of["left"][0] + of["right"][0]))  # the thrusts of the banks cancel in the total
         worst = max(worst, *(abs(a - b) / size for a, b in zip(of["whole"][0], total)))
         halves = max(halves, *(abs(a + b - c) / size for a, b, c in zip(of["left"][0], of["right"][0], of["whole"][0])))
+        expect(of["bounded"][0] == of["left"][0], "a plane with area 0 only bounds the part of the base")
         for wedge, (dam, acceleration, mode, value) in of.items():
             by_hand, least = safety(wedge, dam, acceleration, mode)
             of_safety = max(of_safety, abs(value - by_hand) / by_hand if 0. < by_hand < math.inf else float(value != by_hand))
@@ -161,7 +163,9 @@ def limits():
     shown = runs("scene.prm", "--output", "none", *settings("Limits/Wedge safety=2", "Motion/Source=none"))
     expect("wedge safety (there is no Limits/Wedges)" in shown and not Path("none/wedges.csv").exists(), shown)
     write("far.csv", HEAD + "far, roof, 0, 0, 500, 10, 0, 1, 0.5, 0, 0, 1e5, 2600\nfar, side, 0, 0, 0, 90, 90, 1, 0.5, 0, 0, , \n")
-    for file, words in (("far.csv", ["no face of the surface \"base\" rests on wedge \"far\"", "other side of: roof"]), ("gone.csv", ["cannot be read"])):
+    write("bound.csv", HEAD + "bound, end, 0, 0, 0, 90, 90, 0, 0, 0, 0, 1e5, 2600\n")
+    for file, words in (("far.csv", ["no face of the surface \"base\" rests on wedge \"far\"", "other side of: roof"]), ("gone.csv", ["cannot be read"]),
+                        ("bound.csv", ["all planes of wedge \"bound\" have the area 0"])):
         for more in ([], ["--validate"]):
             refused(["scene.prm", "--output", "refused", *settings(f"Limits/Wedges={file}"), *more], "Limits/Wedges", *words)
     expect(not Path("refused/summary.json").exists(), "refused before the run")

@@ -75,7 +75,7 @@ namespace Voussoir
     std::vector<const JointLaw *>               law(n);
     for (const double mu : problem.mu)
       if (laws.find(mu) == laws.end())
-        laws[mu] = make_joint_law("FJA", mu, equations);
+        laws[mu] = make_joint_law("FJA", LawParameters(mu, equations));
     FrictionProblem  scaled = problem;
     const int        exponent_W = normalise(scaled.W.value), exponent_q = normalise(scaled.q);
     const PairGroups groups = find_groups(scaled.W);

@@ -88,11 +88,12 @@ namespace Voussoir
         {1e3, 5e6, true}, Double(0.));
   }
 
-  std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters)
+  std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters,
+                                           const bool crosses)
   {
     const LawRow             &row = row_of(laws, name, "is no joint law", "The laws are:");
     std::unique_ptr<JointLaw> law = row.make(parameters);
-    if (!includes(row.entries, "Joints/Normal stiffness"))
+    if (!includes(row.entries, "Joints/Normal stiffness") && !(crosses && row.make != make_tied_law))
       return law;
     LawParameters read = parameters;
     if (!includes(row.entries, "Joints/Adhesion"))

@@ -141,7 +141,7 @@ namespace Voussoir
                        : *stiffness == 0. ? added
                                           : 1. / (1. / *stiffness + 1. / added);
         if (models[j] != "KSM")
-          laws.push_back(make_joint_law(models[j], parameters));
+          laws.push_back(make_joint_law(models[j], parameters, true));
         else // see JointLayout::cross()
           laws.push_back(without_keys.count(j) > 0 ? make_joint_law("FJA", parameters) : nullptr);
       }

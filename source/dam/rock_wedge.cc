@@ -40,7 +40,7 @@ namespace Voussoir
                                                    {"nx", "-", -unbounded, unbounded},
                                                    {"ny", "-", -unbounded, unbounded},
                                                    {"nz", "-", -unbounded, unbounded},
-                                                   {"area", "m2", 1e-6, unbounded},
+                                                   {"area", "m2", 0., unbounded},
                                                    {"friction", "-", 0., 5.},
                                                    {"cohesion", "Pa", 0., unbounded},
                                                    {"uplift", "Pa", 0., unbounded},
@@ -200,7 +200,7 @@ namespace Voussoir
     /** Reads volume and density of a wedge. They may be empty after its first line. */
     void WedgeFile::read_rock(RockWedge &wedge) const
     {
-      const bool is_first = wedge.planes.empty();
+      const bool is_first = wedge.planes.empty() && wedge.bounds.empty();
       for (const auto &[column, number] :
            {std::make_pair("volume", &wedge.volume), {"density", &wedge.density}})
       {
@@ -242,16 +242,17 @@ namespace Voussoir
       for (const WedgePlane &other : wedge.planes)
         if (other.name == name)
           error("wedge \"" + wedge.name + "\" has two planes \"" + name + "\". Use another name.");
-      if (wedge.planes.size() == 3)
-        error("wedge \"" + wedge.name +
-              "\" has a fourth plane. Write at most three: those with contact to the rock mass.");
+      if (wedge.planes.size() == 3 && value("area") > 0.)
+        error(
+            "wedge \"" + wedge.name +
+            "\" has a fourth plane. Write at most three with contact to the rock mass, and others with area 0.");
       read_rock(wedge);
       WedgePlane plane{name, {{value("x"), value("y"), value("z")}}, normal()};
       plane.area = value("area");
       plane.friction = value("friction");
       plane.cohesion = value("cohesion");
       plane.uplift = value("uplift");
-      wedge.planes.push_back(plane);
+      (plane.area > 0. ? wedge.planes : wedge.bounds).push_back(plane);
       check(wedge);
     }
 
@@ -285,14 +286,20 @@ namespace Voussoir
       if (wedges.empty())
         throw InputError("Entry \"Limits/Wedges\": " + file +
                          " has no wedge. Write a line with the names of the columns and one line per plane.");
+      for (const RockWedge &wedge : wedges)
+        if (wedge.planes.empty())
+          throw InputError("Entry \"Limits/Wedges\": all planes of wedge \"" + wedge.name +
+                           "\" have the area 0. Write at least one plane with contact.");
       return wedges;
     }
   } // namespace
 
   bool RockWedge::contains(const Vector3 &place) const
   {
-    return std::all_of(planes.begin(), planes.end(),
-                       [&](const WedgePlane &plane) { return dot(plane.normal, place - plane.point) > 0.; });
+    const auto is_inside = [&](const WedgePlane &plane)
+    { return dot(plane.normal, place - plane.point) > 0.; };
+    return std::all_of(planes.begin(), planes.end(), is_inside) &&
+           std::all_of(bounds.begin(), bounds.end(), is_inside);
   }
 
   Vector3 normal_of(const double dip, const double direction)

@@ -80,7 +80,8 @@ namespace Voussoir
           gram = sum(gram, 1., square_of(d));
           edges.push_back({f, other, d});
         }
-      if (const double t = gram[0] + gram[4] + gram[8] - 1.; determinant(gram) < .02 * t * t) // parallel edges
+      if (const double t = gram[0] + gram[4] + gram[8] - 1.;
+          determinant(gram) < .02 * t * t) // parallel edges
         gram = {{t, 0., 0., 0., t, 0., 0., 0., t}};
       for (std::size_t e = first; e < edges.size(); ++e)
         edges[e].gain = inverse(gram) * edges[e].gain;

@@ -9,7 +9,7 @@
 
 namespace Voussoir
 {
-  /** Joint with a stiffness and an adhesion, and the law of its face (FJA, FJB, cohesive).
+  /** Joint with a stiffness and an adhesion, and the law of its face, any with one surface.
    *
    * The stiffness is that of the joint itself, such as of a measured rock joint: the gap of the face is gap + D force,
    * with D = diag(1/(k_n A), 1/(k_t A), 1/(k_t A)) and the area A of the pair. So force_n >= 0,

@@ -12,17 +12,10 @@ namespace Voussoir
 {
   struct ModelChoices;
 
-  /** Makes the joint law of the row @p name of the table. Throws InputError for an
-   * unknown name, for equations that the law does not have, and for invalid parameters. */
-  std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters);
-
-  /** Makes a joint law from single parameters. */
-  inline std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const double friction,
-                                                  const Equations      equations,
-                                                  const KeyParameters &keys = KeyParameters())
-  {
-    return make_joint_law(name, LawParameters(friction, equations, keys));
-  }
+  /** Makes the joint law of the row @p name of the table, an ElasticLaw if it reads stiffnesses or @p crosses other
+   * joints. Throws InputError for an unknown name, for equations that the law does not have, and for invalid parameters. */
+  std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters,
+                                           bool crosses = false);
 
   /** Returns whether the law uses the entry, such as "Joints/Friction". Also true if the law is not in the
    * table. */

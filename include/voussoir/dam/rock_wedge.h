@@ -13,13 +13,14 @@ namespace Voussoir
   struct RockWedge
   {
     std::string             name;
-    std::vector<WedgePlane> planes;       ///< one to three
+    std::vector<WedgePlane> planes;       ///< with contact, one to three
+    std::vector<WedgePlane> bounds = {};  ///< with area 0: only bound the part of the base on the wedge
     double                  volume = 0.;  ///< [m^3]
     double                  density = 0.; ///< of the rock [kg/m^3]
 
     double mass() const { return volume * density; } ///< returns the mass [kg]
 
-    /** Returns true if @p place [m] is on the side of the wedge of all planes. */
+    /** Returns true if @p place [m] is on the side of the wedge of all planes and bounds. */
     bool contains(const Vector3 &place) const;
   };
 
