@@ -29,11 +29,16 @@ namespace Columns
 
   using namespace Testing;
 
+  inline std::mt19937 &random_engine()
+  {
+    static std::mt19937 engine(7);
+    return engine;
+  }
+
   /** Random numbers in [-1, 1], the same on every machine. */
   inline double random_number()
   {
-    static std::mt19937 engine(7);
-    return engine() / 2147483647.5 - 1.;
+    return random_engine()() / 2147483647.5 - 1.;
   }
 
   /** Runs the tests; main's status. */

@@ -142,6 +142,7 @@ namespace
     const double h = 2e-6;
     for (const NamedLaw &l : all_laws())
     {
+      random_engine().seed(7); // the place of a law has no effect on the others
       double             worst = 0.;
       unsigned int       kinks = 0, wrong = 0, states[3] = {0, 0, 0};
       std::map<int, int> touching;
@@ -225,6 +226,7 @@ namespace
   {
     for (const NamedLaw &l : all_laws())
     {
+      random_engine().seed(7); // the place of a law has no effect on the others
       double       worst_equations = 0., worst_error = 0.;
       unsigned int wrong = 0;
       const bool   has_keys = l.name.find("KSM") == 0;
@@ -269,6 +271,7 @@ namespace
   {
     for (const NamedLaw &l : all_laws())
     {
+      random_engine().seed(7); // the place of a law has no effect on the others
       double       gain = 0., gain_stop = 0., approach = 0.;
       unsigned int wrong = 0;
       for (unsigned int trial = 0; trial < 3000; ++trial)
@@ -901,8 +904,8 @@ namespace
 
 int main()
 {
-  return run_all({test_derivatives, test_solve, test_impulses, test_units, test_error, test_no_keys,
-                  test_rectangular, test_variational, test_kinematics, test_structures, test_start_on_flank,
-                  test_default_friction, test_seats, test_out_over_and_back, test_back_onto_elastic_seat,
-                  test_out_of_compressed_seat});
+  return run_all({test_units, test_error, test_no_keys, test_rectangular, test_variational, test_kinematics,
+                  test_structures, test_start_on_flank, test_default_friction, test_seats,
+                  test_out_over_and_back, test_back_onto_elastic_seat, test_out_of_compressed_seat,
+                  test_derivatives, test_solve, test_impulses});
 }

@@ -20,7 +20,7 @@ namespace Voussoir
     {
       const char *name, *doc;
       std::unique_ptr<JointLaw> (*make)(const LawParameters &);
-      EntryNames entries; ///< entries of section Joints that the law reads
+      EntryNames entries; ///< of section Joints that the law reads; "Normal stiffness" makes it an ElasticLaw
 
       /** Addition to the name in the message about JointLaw::needs_mean_force(); null: never needed. */
       const char *mean_force = nullptr;
