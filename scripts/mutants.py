@@ -201,7 +201,7 @@ def mutate(text, mutant, number):
             for part in (old.rstrip(";"), new.rstrip(";")):
                 if not is_expression(part):
                     raise Misfit(f"mutant {mutant['name']}: this is no expression, so it cannot be chosen by ?: (write MUTANT): {part}")
-            if re.match(r"[-+*&] ", old) and re.search(r"[\w)\]]$", before) or text[end:].startswith(("(", "[")):
+            if (re.match(r"(&&|!=|[-+*&]) ", old) and re.search(r"[\w)\]]$", before)) or text[end:].startswith(("(", "[")):
                 raise Misfit(f"mutant {mutant['name']}: brackets would part this from its neighbours (write MUTANT): {old}")
             if binds_less(old.rstrip(";"), before, text[end:] if not old.endswith(";") else ";"):
                 raise Misfit(f"mutant {mutant['name']}: its neighbours bind more, so brackets change what it means without the "

@@ -162,10 +162,11 @@ def limits():
     reports("stable")
     shown = runs("scene.prm", "--output", "none", *settings("Limits/Wedge safety=2", "Motion/Source=none"))
     expect("wedge safety (there is no Limits/Wedges)" in shown and not Path("none/wedges.csv").exists(), shown)
-    write("far.csv", HEAD + "far, roof, 0, 0, 500, 10, 0, 1, 0.5, 0, 0, 1e5, 2600\nfar, side, 0, 0, 0, 90, 90, 1, 0.5, 0, 0, , \n")
+    write("far.csv", HEAD + "far, under, 0, 0, -50, 0, 0, 1, 0.5, 0, 0, 1e5, 2600\nfar, roof, 0, 0, 500, 10, 0, 0, 0, 0, 0, , \n")
+    write("weak.csv", HEAD + "weak, under, 0, 0, -50, 0, 0, 0, 0.5, 0, 0, 1e5, 2600\n")
     write("bound.csv", HEAD + "bound, end, 0, 0, 0, 90, 90, 0, 0, 0, 0, 1e5, 2600\n")
     for file, words in (("far.csv", ["no face of the surface \"base\" rests on wedge \"far\"", "other side of: roof"]), ("gone.csv", ["cannot be read"]),
-                        ("bound.csv", ["all planes of wedge \"bound\" have the area 0"])):
+                        ("weak.csv", ["line 2", "area 0", "friction"]), ("bound.csv", ["all planes of wedge \"bound\" have the area 0"])):
         for more in ([], ["--validate"]):
             refused(["scene.prm", "--output", "refused", *settings(f"Limits/Wedges={file}"), *more], "Limits/Wedges", *words)
     expect(not Path("refused/summary.json").exists(), "refused before the run")

@@ -425,13 +425,13 @@ namespace
     const std::vector<Vector3> at = tractions.at(force);
     const Vector3              m = scaled(1. / std::hypot(1., .6, .5), {{-1., .6, .5}});
     double                     worst = 0., unequal = 0.;
-    unsigned int               n_edge = 0;
+    unsigned int               n_edge = 0, n_equal = 0;
     for (std::size_t f = 0; f < at.size(); ++f)
     {
       for (std::size_t g = 0; g < at.size(); ++g)
         if (const NodeFace &a = tractions.faces[f], &b = tractions.faces[g];
             a.node == b.node && is_joint_side(a.surface) && !is_joint_side(b.surface))
-          unequal = std::max(unequal, std::abs(dot(at[f], b.normal) - dot(at[g], a.normal)));
+          unequal = std::max(unequal, std::abs(dot(at[f], b.normal) - dot(at[g], a.normal))), ++n_equal;
       if (const NodeFace &face = tractions.faces[f]; is_joint_side(face.surface) &&
                                                      model.on_surface(face.node, PhysicalId::upstream) &&
                                                      model.points[face.node][2] < tall - 1.)
@@ -445,6 +445,7 @@ namespace
       }
     }
     below("shear stresses on both sides of edges and corners, of q", unequal / q, 1e-12);
+    expect(n_equal == 2 * (2 * 6 + 3), "edges upstream, downstream and at the crest, with its corners");
     expect(n_edge == 2 * 5, "nodes of both sides on the edge");
     below("joint that is not normal to the face: its traction on the edge, of q", worst / q, 1e-12);
   }

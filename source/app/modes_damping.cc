@@ -93,12 +93,14 @@ namespace Voussoir
       }
     if (n_off == 0)
       return "";
+    const auto [f1, f2] = proposal();
     return text(
                "the damping ratio of %zu mode%s differs from \"Damping/Ratio\" (%.3g %%) by more than 30 %%, "
-               "most of all %.2f %% in mode %zu (%.3g Hz). Set \"Damping/Frequency 1\" and \"Frequency 2\" to the "
-               "limits of the important frequencies",
+               "most of all %.2f %% in mode %zu (%.3g Hz). ",
                n_off, n_off == 1 ? "" : "s", 100. * damping.ratio, 100. * ratio(worst), worst + 1,
                frequency[worst]) +
-           ", for example to the proposal.";
+           (smallest_between(f1, f2) < 1. - tolerance
+                ? "Set \"Damping/Model\" to uniform."
+                : "Set \"Damping/Frequency 1\" and \"Frequency 2\" to the proposal.");
   }
 } // namespace Voussoir

@@ -20,7 +20,7 @@ namespace Voussoir
     {
       const char *name, *doc;
       std::unique_ptr<JointLaw> (*make)(const LawParameters &);
-      EntryNames entries; ///< of section Joints that the law reads; "Normal stiffness" makes it an ElasticLaw
+      EntryNames entries; ///< of section Joints that the law reads
 
       /** Addition to the name in the message about JointLaw::needs_mean_force(); null: never needed. */
       const char *mean_force = nullptr;
@@ -93,7 +93,8 @@ namespace Voussoir
   {
     const LawRow             &row = row_of(laws, name, "is no joint law", "The laws are:");
     std::unique_ptr<JointLaw> law = row.make(parameters);
-    if (!includes(row.entries, "Joints/Normal stiffness") && !(crosses && row.make != make_tied_law))
+    if (!includes(row.entries, "Joints/Normal stiffness") &&
+        !(crosses && row.make != make_tied_law && !law->surfaces_law()))
       return law;
     LawParameters read = parameters;
     if (!includes(row.entries, "Joints/Adhesion"))

@@ -187,20 +187,18 @@ namespace Voussoir
     {
       if (has("dip"))
         return normal_of(value("dip"), value("dip direction"));
-      Vector3      result{{value("nx"), value("ny"), value("nz")}};
-      const double length = norm(result);
+      const Vector3 result{{value("nx"), value("ny"), value("nz")}};
+      const double  length = norm(result);
       if (!(length > 0.))
         error("the normal of plane \"" + text("plane") +
               "\" is zero. Write the components of a vector from the plane into the wedge.");
-      for (double &x : result)
-        x /= length;
-      return result;
+      return scaled(1. / length, result);
     }
 
     /** Reads volume and density of a wedge. They may be empty after its first line. */
     void WedgeFile::read_rock(RockWedge &wedge) const
     {
-      const bool is_first = wedge.planes.empty() && wedge.bounds.empty();
+      const bool is_first = wedge.sides.empty();
       for (const auto &[column, number] :
            {std::make_pair("volume", &wedge.volume), {"density", &wedge.density}})
       {
@@ -239,20 +237,24 @@ namespace Voussoir
               std::to_string(place.size()) + ". Write one value for each column, with a decimal point.");
       RockWedge        &wedge = wedge_of_row();
       const std::string name = text("plane");
-      for (const WedgePlane &other : wedge.planes)
+      for (const WedgePlane &other : wedge.sides)
         if (other.name == name)
           error("wedge \"" + wedge.name + "\" has two planes \"" + name + "\". Use another name.");
       if (wedge.planes.size() == 3 && value("area") > 0.)
-        error(
-            "wedge \"" + wedge.name +
-            "\" has a fourth plane. Write at most three with contact to the rock mass, and others with area 0.");
+        error("wedge \"" + wedge.name +
+              "\" has a fourth plane with contact. Write three, and others with area 0.");
       read_rock(wedge);
       WedgePlane plane{name, {{value("x"), value("y"), value("z")}}, normal()};
       plane.area = value("area");
       plane.friction = value("friction");
       plane.cohesion = value("cohesion");
       plane.uplift = value("uplift");
-      (plane.area > 0. ? wedge.planes : wedge.bounds).push_back(plane);
+      wedge.sides.push_back(plane);
+      if (plane.area > 0.)
+        wedge.planes.push_back(plane);
+      else if (plane.friction + plane.cohesion + plane.uplift > 0.)
+        error("plane \"" + name +
+              "\" has the area 0, but friction, cohesion or uplift. Correct one of them.");
       check(wedge);
     }
 
@@ -296,10 +298,8 @@ namespace Voussoir
 
   bool RockWedge::contains(const Vector3 &place) const
   {
-    const auto is_inside = [&](const WedgePlane &plane)
-    { return dot(plane.normal, place - plane.point) > 0.; };
-    return std::all_of(planes.begin(), planes.end(), is_inside) &&
-           std::all_of(bounds.begin(), bounds.end(), is_inside);
+    return std::all_of(sides.begin(), sides.end(),
+                       [&](const WedgePlane &plane) { return dot(plane.normal, place - plane.point) > 0.; });
   }
 
   Vector3 normal_of(const double dip, const double direction)
@@ -325,9 +325,11 @@ namespace Voussoir
       result.push_back({wedge, part_on(wedge)});
       if (result.back().part.n_faces > 0)
         continue;
-      const auto is_outside = [&](const WedgePlane &plane) { return part_on({"", {plane}}).n_faces == 0; };
+      const auto is_outside = [&](const WedgePlane &plane) {
+        return part_on({"", {}, {plane}}).n_faces == 0;
+      };
       const std::string outside = // planes with the whole base on their other side
-          listed(wedge.planes, [&](const WedgePlane &plane) { return is_outside(plane) ? plane.name : ""; });
+          listed(wedge.sides, [&](const WedgePlane &plane) { return is_outside(plane) ? plane.name : ""; });
       throw InputError(
           "Entry \"Limits/Wedges\": no face of the surface \"base\" rests on wedge \"" + wedge.name +
           "\", so the dam would not load it. " +

@@ -72,7 +72,7 @@ namespace Voussoir
       const Vector3    &n = faces[f].normal;
       const std::size_t first = edges.size();
       Matrix3           gram = square_of(n);
-      for (const unsigned int other : {f - 2, f - 1, f + 1, f + 2})
+      for (const unsigned int other : {f - 4, f - 3, f - 2, f - 1, f + 1, f + 2, f + 3, f + 4})
         if (pair[f] != rigid_ground && other < faces.size() && faces[other].node == faces[f].node &&
             pair[other] == rigid_ground && std::abs(dot(n, faces[other].normal)) < .9)
         {
@@ -81,7 +81,7 @@ namespace Voussoir
           edges.push_back({f, other, d});
         }
       if (const double t = gram[0] + gram[4] + gram[8] - 1.;
-          determinant(gram) < .02 * t * t) // parallel edges
+          determinant(gram) < .02 * t * t) // one edge, or nearly parallel ones
         gram = {{t, 0., 0., 0., t, 0., 0., 0., t}};
       for (std::size_t e = first; e < edges.size(); ++e)
         edges[e].gain = inverse(gram) * edges[e].gain;

@@ -11,12 +11,9 @@ namespace Voussoir
 {
   namespace
   {
-    Vector3 unit(Vector3 x)
+    Vector3 unit(const Vector3 &x)
     {
-      const double size = norm(x);
-      for (double &c : x)
-        c /= size;
-      return x;
+      return scaled(1. / norm(x), x);
     }
 
     /** Returns the factors of xx yy zz xy yz zx in t . sigma t. @p t: unit vector. */
@@ -32,7 +29,7 @@ namespace Voussoir
 
   NodeOnFace directions_at(const NodeFace &face)
   {
-    const Vector3 n = unit(face.normal);
+    const Vector3 &n = face.normal;
     // z x n; a face is horizontal if its slope is below 1e-6.
     const Vector3 arch = length(n[0], n[1]) > 1e-6 ? unit({{-n[1], n[0], 0.}}) : Vector3{{0., 1., 0.}};
     return {face.node, face.surface, factors(arch), factors(cross(n, arch))};
@@ -60,7 +57,7 @@ namespace Voussoir
                 });
       for (const auto &[node, sum] : area)
         if (model.on_surface(node, surface))
-          nodes.push_back(directions_at({node, surface, sum}));
+          nodes.push_back(directions_at({node, surface, unit(sum)}));
     }
     std::stable_sort(nodes.begin(), nodes.end(),
                      [](const NodeOnFace &a, const NodeOnFace &b) { return a.node < b.node; });

@@ -94,12 +94,13 @@ def all_checked(case, relations):
     rows = [checked(case, relation) for relation in relations]
     print(f"    scene {case.number}: {len(rows)} checks, {time.time() - begin:.0f} s:",
           ", ".join(f"{row[1]} {row[3]:.0f}" for row in rows if row[3] >= 10), flush=True)
-    record(case.net, case.number, CHECKED)
+    if all(row[2] != "failed" for row in rows):
+        record(case.net, case.number, CHECKED)
     return rows
 
 
 def record(net, number, what):
-    """Writes a line for this scene: what was drawn, None if it has no solution, or CHECKED after its checks."""
+    """Writes a line for this scene: what was drawn, None if it has no solution, or CHECKED after its checks without a failure."""
     with (net.directory / DRAWN).open("a") as file:
         print((number, what), file=file)
 

@@ -12,8 +12,8 @@ namespace Voussoir
 {
   struct ModelChoices;
 
-  /** Makes the joint law of the row @p name of the table, an ElasticLaw if it reads stiffnesses or @p crosses other
-   * joints. Throws InputError for an unknown name, for equations that the law does not have, and for invalid parameters. */
+  /** Makes the law of the row @p name. Stiffnesses act if it reads them, or if it @p crosses joints and has one surface.
+   * Throws InputError for an unknown name, for equations that the law does not have, and for invalid parameters. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters,
                                            bool crosses = false);
 

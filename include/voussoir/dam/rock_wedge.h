@@ -14,13 +14,13 @@ namespace Voussoir
   {
     std::string             name;
     std::vector<WedgePlane> planes;       ///< with contact, one to three
-    std::vector<WedgePlane> bounds = {};  ///< with area 0: only bound the part of the base on the wedge
+    std::vector<WedgePlane> sides = {};   ///< all planes; those with area 0 only bound the part of the base
     double                  volume = 0.;  ///< [m^3]
     double                  density = 0.; ///< of the rock [kg/m^3]
 
     double mass() const { return volume * density; } ///< returns the mass [kg]
 
-    /** Returns true if @p place [m] is on the side of the wedge of all planes and bounds. */
+    /** Returns true if @p place [m] is on the side of the wedge of all planes. */
     bool contains(const Vector3 &place) const;
   };
 

@@ -37,7 +37,7 @@ namespace Voussoir
     /** Returns a stage. */
     const StaticPart &part(const std::size_t stage) const { return parts[stage]; }
 
-    /** Returns true if the state depends on the increments: with stages and friction in base or lift joints. */
+    /** Returns true if the state depends on the increments: with friction in base or lift joints. */
     bool depends_on_increments() const { return is_dependent; }
 
     /** Returns true if a stage has the weight alone. */

@@ -28,7 +28,7 @@ namespace Voussoir
    *  - zero on all other faces.
    *
    * At an edge of a joint face, its traction changes by the least shear that gives t_1 n_2 = t_2 n_1 there, in the
-   * sense of least squares if several edges meet.
+   * sense of least squares if edges meet at more than 20 degrees.
    *
    * Tied joints have no faces. Pairs on several planes are excluded: the shares are unknown. */
   class Tractions

@@ -9,7 +9,7 @@
 
 namespace Voussoir
 {
-  /** Returns the directions of the stresses on a face, whose normal need not have the length 1. */
+  /** Returns the directions of the stresses on a face. */
   NodeOnFace directions_at(const NodeFace &face);
 
   /** Normal stresses in fixed directions at the nodes of the upstream and the downstream face: arch,
