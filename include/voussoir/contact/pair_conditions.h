@@ -10,7 +10,7 @@ namespace Voussoir
   // numbers refer to the paper of 2008. Units: forces [N], openings and slips [m], rho [N/m], friction [-].
 
   /** Computes the normal condition in the form of Alart and Curnier, equation (2b): force_n = max(0, force_n
-   * - rho gap_n). Returns whether the pair is closed. */
+   * - rho gap_n). Returns whether the pair is closed, as equations.active. */
   bool normal_condition(double force, double opening, double rho, PairEquations &equations);
 
   /** Computes the equations of a pair without slip, (5) and (6). */

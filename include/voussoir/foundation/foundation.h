@@ -27,8 +27,8 @@ namespace Voussoir
     unsigned int                degree = 1; ///< polynomial degree of the elements
     bool                        incompatible_modes = true; ///< the elements of the dam have these modes
 
-    /** true: massless rock forms one body with the dam. This is required if all joints are tied, if the
-     * impact rule is not ImpactRule::mean_force, or if contact problems are written. */
+    /** true: massless rock forms one body with the dam. This is required for the explicit scheme, tied joints (not with
+     * uniform damping), impact rules other than ImpactRule::mean_force, and written contact problems. */
     bool one_body = false;
 
     std::string generated_in =
