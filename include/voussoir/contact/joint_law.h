@@ -48,7 +48,7 @@ namespace Voussoir
     bool    is_mean = false; ///< true: forces are means over the step; false: forces at its end
 
     /** JointLaw::n_memory() history variables of the pair: those at the start of the step, changed by the
-     * events of this step. Null, also in tests, if n_memory() is 0. */
+     * events of this step. Unused if n_memory() is 0. Null in tests of laws with several surfaces. */
     const double *memory = nullptr;
   };
 

@@ -56,9 +56,8 @@ namespace Voussoir
     ContactResult solve_static(const DamSolve &solve, const Unknowns &springs, const Unknowns &u,
                                Unknowns &load, std::string &failure, Log &log) override;
 
-    /** Throws InputError in these cases: - the time step of the rock exceeds the critical one, - the
-     * artificial boundary would be unstable (ArtificialBoundary::check()) or is too close to the
-     *    base. */
+    /** Throws InputError if the time step of the rock exceeds the critical one, or if the artificial boundary would be
+     * unstable (ArtificialBoundary::check()) or is too close to the base. */
     void check(const TimeGrid &grid, unsigned int steps_per_sample) const override;
 
     double seconds() const override { return seconds_advancing; }

@@ -136,7 +136,7 @@ namespace Voussoir
     virtual void add_sustained_stiffness(double /*ratio*/, Structure & /*structure*/) const {}
 
     /** Adds the rock mass of the base nodes to Structure::mass [kg]. Must be called after the inertia loads
-     * of the dam were computed, which exclude the rock. */
+     * of the dam were computed, which exclude the rock. The structure may have masses only (critical step). */
     virtual void add_mass(Structure & /*structure*/) const {}
 
     /** Returns auxiliary springs at the base nodes for the static solution, three values per node of the dam
@@ -285,7 +285,7 @@ namespace Voussoir
    *  2. before the run: delay(), check(), report(), about_steps(),
    *  3. static state: static_springs(), static_base(), and solve_static() for each static step, again
    *     while water enters joints,
-   *  4. start of the dynamic analysis: start(), support(), monitor(),
+   *  4. start of the dynamic analysis: start(), support(), explicit scheme: step_neighbour(), monitor(),
    *  5. time step: advance(), base_velocity(), Integrator::advance(), update_from_dam(),
    *  6. after the time step: energies(), NeighbourMonitor,
    *  7. checkpoint: gather_on_root(), state(); end of the run: add_to_summary(), report_balance(). */
