@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Builds the Debian packages voussoir and voussoir-dev, with CPack, in build-package/ or another directory.
+# Builds the Debian packages voussoir and voussoir-dev, with CPack, in build-package/ or another directory. Requires dpkg-dev.
 # Usage: scripts/package.sh [--directory DIR] [more arguments for cmake]
 # DEBFULLNAME and DEBEMAIL name the maintainer of the packages, as for Debian's own tools.
 set -euo pipefail
