@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
-BUDGETS = {"lines of C++ in source and include": 65391, "words of pages written by hand": 31530,
+BUDGETS = {"lines of C++ in source and include": 65391, "words of pages written by hand": 31527,
            "sources that include grids of deal.II": 28, "headers that include grids of deal.II": 5}
 TOPS = "benchmarks|cmake|container|doc|examples|include|meshes|packaging|prm|python|scripts|source|studies|tests"
 ROOMS = "app|base|contact|dam|dynamics|foundation|joints|mesh|motion|output|rock|solid|water"

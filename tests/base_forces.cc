@@ -87,7 +87,7 @@ namespace
         add_added_mass(*dam.model, scene.reservoir, structure);
     }
 
-    /** What each monolith's foundation must give it in this step, by number, about the origin. */
+    /** Returns the forces that the foundation must exert on each monolith in this step, by number, about the origin. */
     std::map<int, Wrench> balance(const Dam &as_run, const StepOfDam &step, const bool staged) const
     {
       const double                                 factor = as_run.scene.loads.factor("weight");
@@ -125,13 +125,13 @@ namespace
       {
         const Pair &pair = as_run.structure.pairs[p];
         if (base.count(pair.node_1) > 0 &&
-            base.count(pair.node_2) > 0) // a foot: what ties the monoliths there is the foundation
+            base.count(pair.node_2) > 0) // base nodes: the foundation ties the monoliths there
           continue;
         const Vector3 f = get(step.joint_force, p);
         Vector3       on_2{};
         for (unsigned int i = 0; i < 3; ++i)
           add(on_2, scaled(f[i], pair.frame[i]));
-        add_at(result[int(pair.joint) + 1], pair.place, on_2); // less what it carries: -(-f)
+        add_at(result[int(pair.joint) + 1], pair.place, on_2); // minus the joint force on side 1, -f
         add_at(result[int(pair.joint) + 2], pair.place, scaled(-1., on_2));
       }
       return result;
@@ -408,7 +408,7 @@ namespace
     scene.loads.uplift.base = true;
     scene.loads.tail_water.level = 5.;
     const double weight = 2500. * 10. * 10. * 10. * 30., push = 1e4 * 10. * (25. * 25. - 5. * 5.) / 2.;
-    const double tilt = 1e4 * 10. * (25. * 25. * 25. - 5. * 5. * 5.) / 6.; // of the water about the foot
+    const double tilt = 1e4 * 10. * (25. * 25. * 25. - 5. * 5. * 5.) / 6.; // of the water about the base
     for (const char *weighing : {"staged", "monolithic"})
     {
       scene.statics.self_weight = weighing;
@@ -437,7 +437,7 @@ namespace
         expect_close(base.uplift, 1e4 * 100. * (25. + 5.) / 2., 1e-10, "uplift");
         normal += force.normal, stream += force.shear[0], arch += force.shear[1];
         overturning += force.moment[1], torsion += force.moment[2];
-        // Each by itself, by symmetry, also where the joint is tied.
+        // Each monolith alone, by symmetry, also where the joint is tied.
         below("each has half", std::abs(force.normal / -weight - 1.) + std::abs(force.shear[0] / -push - 1.),
               1e-10);
         const double compression = weight - 1e4 * 100. * 15.;

@@ -118,14 +118,14 @@ namespace
     }
   }
 
-  /** Of 2000 random states, those that miss a limit; not more than @p most, which is zero but where forces
-   * are not unique (see SurfacesLaw). */
+  /** Checks the number of the 2000 random states that exceed a limit: at most @p most, which is zero except where
+   * forces are not unique (see SurfacesLaw). */
   void few(const std::string &what, const unsigned int number, const unsigned int most)
   {
     below(what + ", of 2000", number, most + .5);
   }
 
-  /** How many states with several forces the test may meet: more where the face's friction is above what a
+  /** Returns the permitted number of states with several forces: more where the face's friction is above what a
    *  flank needs to ride, or the flanks' friction jams the key. */
   unsigned int ambiguous(const NamedLaw &l)
   {
@@ -209,8 +209,8 @@ namespace
     }
   }
 
-  /** What the surfaces of a pair miss at its own solution @p f, and how far that is from the sum of theirs.
-   */
+  /** Returns the error of the surfaces of a pair at its solution @p f, plus the distance of f from the sum of their
+   * forces. */
   double surfaces_error(const SurfacesLaw &law, const Matrix3 &H, const Vector3 &b, const Vector3 &start,
                         const Vector3 &f, const double rho)
   {
@@ -365,7 +365,7 @@ namespace
     below("error of FJA: difference from Siconos' natural map", to_siconos, 1e-13);
   }
 
-  /** Keys of no height are no keys. */
+  /** Keys without height have no effect. */
   void test_no_keys()
   {
     double worst = 0., solution = 0., impulse = 0.;
@@ -418,7 +418,7 @@ namespace
   }
 
   /** A step that starts within round-off of a flank starts on it: the direction of friction must not hang on
-   *  the 1e-14 m that are left of the play, which took all rounds of the iteration and was still not found.
+   *  the 1e-14 m that are left of the play, which all iterations did not find.
    */
   void test_start_on_flank()
   {
@@ -650,7 +650,7 @@ namespace
           1e-8);
     const Vector3 held = law->solve({{1e-30, 0., 0., 0., 1e-30, 0., 0., 0., 1e-30}}, there, past);
     below("  it stays while nothing moves", norm(held - g) / norm(g), 1e-9);
-    // Out of the seat, beside it, and back: the flank is found again where it was.
+    // Out of the seat, next to it, and back: the flank is found again where it was.
     const auto go = [&](const Vector3 &to)
     {
       const Vector3 force = law->solve({{1e-30, 0., 0., 0., 1e-30, 0., 0., 0., 1e-30}}, to, past);

@@ -74,7 +74,7 @@ namespace
       memory = laws.initial_memory();
     }
 
-    /** From the last accepted state to a displacement (x, y) of the plate [m]. */
+    /** Moves the plate from the last accepted state to the displacement (x, y) [m]. */
     void move(const double x, const double y)
     {
       Unknowns     offset(gap.size()), u;
@@ -101,7 +101,7 @@ namespace
       force = trial_force;
       gap = trial_gap;
     }
-    /** To x, with y such that the plate is pressed by @p N; returns y. */
+    /** Moves the plate to x, with y such that it is pressed by @p N. Returns y. */
     double push(const double x, const double N, double y)
     {
       double y_before = y, N_before = 0.;

@@ -98,6 +98,7 @@ def damping_of_modes(text, rows):
         shown = runs(*dry)
         proposal = re.search(r"Frequency 1 = (\S+), Frequency 2 = (\S+) \((5 times|modes 1 to (\d+)).*; at least (\S+) % in between", shown)
         expect(proposal and proposal[4] == (str(len(found)) if is_reached else None), shown)
+        print(f"    between the proposed frequencies: at least {proposal[5]} %")
         for word, exact in ((proposal[1], f1), (proposal[2], f2), (proposal[5], ratio((f1 * f2)**.5, f1, f2))):
             close(float(word), exact, 5e-3, "proposal")
         for pins in ((f1, f2), (1.2, 6.), (.2, 1.), (20., 90.)):
@@ -106,7 +107,11 @@ def damping_of_modes(text, rows):
             n_off, worst = sum(abs(x / 5. - 1.) > .3 for x in ratios), max(ratios, key=lambda x: abs(x - 5.))
             print(f"    5 % at {pins[0]:.3g} and {pins[1]:.3g} Hz: {n_off} of {len(ratios)} modes, {worst:.2f} %")
             expect(("damping ratio of" in message) == (n_off > 0), f"{pins}, {ratios}: {message}")
+            expect(n_off == 0 or ("to the proposal." in message) == (float(proposal[5]) >= 3.5), f"{proposal[5]} %: {message}")
             expect(n_off == 0 or f"of {n_off} mode" in message and f"{worst:.2f} %" in message, f"{n_off}, {worst}: {message}")
+    wide = voussoir("modes", str(Path(__file__).resolve().parent.parent / "prm" / "coarse.prm"), "--count", "60")
+    found = re.search(r"at least (\S+) % in between", wide.stdout)
+    expect(float(found[1]) < 3.5 and '(9 Hz). Set "Damping/Model" to uniform.' in wide.stderr, f"{found}: {wide.stderr}")
 
 
 def modes():

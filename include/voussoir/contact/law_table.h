@@ -12,7 +12,7 @@ namespace Voussoir
 {
   struct ModelChoices;
 
-  /** Makes the law of the row @p name. Stiffnesses act if it reads them, or if it @p crosses joints and has one surface.
+  /** Makes the law of the row @p name. Stiffnesses act if the law reads them, or has one surface and @p crosses joints.
    * Throws InputError for an unknown name, for equations that the law does not have, and for invalid parameters. */
   std::unique_ptr<JointLaw> make_joint_law(const std::string &name, const LawParameters &parameters,
                                            bool crosses = false);

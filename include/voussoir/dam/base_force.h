@@ -57,10 +57,10 @@ namespace Voussoir
 
   /** Forces of the foundation on the bases of the monoliths. They are the residuals of the equations of
    * motion at the base nodes, with the elements, masses, damping and loads of one monolith. The results are
-   * means over a time step and exact for the trapezoidal rule and leapfrog. In a step with reduced time step they are exact
-   * except for its curvature. They are available for every foundation and for tied joints. A base node of two
-   * monoliths contributes to each of them. Mass-proportional damping is a load on the concrete. The staged
-   * weight acts by StagedWeight::reaction. With a BasePart there is one base: each node of the whole base
+   * means over a time step and exact for the trapezoidal rule and leapfrog. In a step with reduced time step
+   * they are exact except for its curvature. They are available for every foundation and for tied joints. A base
+   * node of two monoliths contributes to each of them. Mass-proportional damping is a load on the concrete. The
+   * staged weight acts by StagedWeight::reaction. With a BasePart there is one base: each node of the whole base
    * contributes the share of its force. */
   class BaseForces
   {

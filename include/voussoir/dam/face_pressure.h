@@ -16,8 +16,8 @@ namespace Voussoir
                        Unknowns                                                      &load);
 
   // Tractions of loads times a factor [Pa]. A horizontal line load q [N/m], such as ice, is -(q/h) (n_x, n_y, 0) over a
-  // height h of whole elements; otherwise the quadrature gives a wrong resultant. @p z: height of the point [m]; @p normal:
-  // outward normal.
+  // height h of whole elements; otherwise the quadrature gives a wrong resultant.
+  // @p z: height of the point [m]; @p normal: outward normal.
 
   /** Returns the hydrostatic pressure of the reservoir. */
   Vector3 water_traction(const Scene &scene, double factor, double z, const Vector3 &normal);

@@ -51,7 +51,7 @@ namespace Voussoir
      * displacements are relative to the base. Mass-proportional damping acts on the velocity relative to it.
      *
      * Throws ComputationError if the joints do not converge, or if displacements are not finite. The state is then
-     * that at the end of the last accepted step (Leapfrog: of the step h that failed). Returns convergence and costs of the contact problems. */
+     * that of the last accepted step, with Leapfrog of the failed step h. Returns convergence and costs of contact. */
     virtual ContactResult advance(const Unknowns &load, const Vector3 &base_velocity = {{0., 0., 0.}}) = 0;
 
     const DynamicState &state() const { return now; }            ///< current state; advance() changes it

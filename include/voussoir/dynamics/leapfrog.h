@@ -24,8 +24,8 @@ namespace Voussoir
    * @param without masses of nodes that do not count, such as those of the rock [kg] */
   CriticalStep critical_step(const Structure &structure, const std::vector<Matrix3> &without);
 
-  /** Explicit time integration of a structure with joints by the leapfrog rule. The joint forces satisfy the joint laws at
-   * the end of each step (Carpenter, Taylor, Katona 1991, Int. J. Numer. Methods Eng. 32, 103-128), without mass damping:
+  /** Explicit time integration of a structure with joints by the leapfrog rule. The joint forces satisfy the joint laws
+   * at the end of each step (Carpenter, Taylor, Katona 1991, Int. J. Numer. Methods Eng. 32, 103-128). Without damping:
    *
    *     v(k + 1/2) = v(k - 1/2) + h M^-1 (F(k) - K w(k) + G^T f(k)),   u(k + 1) = u(k) + h v(k + 1/2).
    *

@@ -14,8 +14,8 @@ namespace Voussoir
     Unknowns            displacement; ///< relative to the ground, three values per free node [m]
     std::vector<Stress> stress;       ///< xx yy zz xy yz zx of each node of the model [Pa]
 
-    /** Stresses of directions_at() on the upstream and the downstream face (one of its faces at a kink), per node of the
-     * model [Pa]. Zero at other nodes. */
+    /** Stresses of directions_at() on the upstream and the downstream face (at a kink on one of its faces), per node
+     * of the model [Pa]. Zero at other nodes. */
     std::vector<float> arch, cantilever;
   };
 
